@@ -1,0 +1,11 @@
+# Every benchmark/<name>.c is the executable bench_<name>; `./dev bench` runs them.
+file(GLOB benchmark_sources CONFIGURE_DEPENDS benchmark/*.c)
+foreach(source IN LISTS benchmark_sources)
+	cmake_path(GET source STEM name)
+	string(REGEX REPLACE "^bench_" "" name ${name})
+	set(name bench_${name})
+	add_executable(${name} ${source})
+	target_include_directories(${name} PRIVATE include src)
+	target_compile_definitions(${name} PRIVATE JN_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
+	target_link_libraries(${name} PRIVATE jounce jounce_flags ${JN_DEPENDENCIES} OpenMP::OpenMP_C m)
+endforeach()

@@ -1,0 +1,44 @@
+# libjounce and the command. The element kernels, src/force/solid_*.c, are compiled once for each vector width into the
+# same library, and the widest that the machine can run is chosen at run time.
+file(GLOB JN_SOURCES CONFIGURE_DEPENDS src/*/*.c src/*/*/*.c)
+file(GLOB JN_KERNEL_SOURCES CONFIGURE_DEPENDS src/force/solid_*.c)
+list(FILTER JN_SOURCES EXCLUDE REGEX "/src/force/solid_[^/]*\\.c$|/src/backend/")
+if(NOT JN_SOURCES)
+	message(FATAL_ERROR "no sources under ${CMAKE_CURRENT_SOURCE_DIR}/src")
+endif()
+
+add_library(jounce ${JN_SOURCES})
+add_library(jounce::jounce ALIAS jounce)
+set_target_properties(jounce PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+target_include_directories(jounce
+	PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+	PRIVATE src)
+
+target_link_libraries(jounce PRIVATE $<BUILD_INTERFACE:jounce_flags> ${JN_DEPENDENCIES} OpenMP::OpenMP_C m)
+
+function(jounce_add_kernels width)
+	if(NOT JN_KERNEL_SOURCES)
+		return()
+	endif()
+	add_library(jounce_kernels_${width} OBJECT ${JN_KERNEL_SOURCES})
+	target_include_directories(jounce_kernels_${width} PRIVATE include src)
+	target_compile_definitions(jounce_kernels_${width} PRIVATE JN_WIDE=${width})
+	target_compile_options(jounce_kernels_${width} PRIVATE ${ARGN} $<$<CONFIG:Release,RelWithDebInfo>:-O3>)
+	target_link_libraries(jounce_kernels_${width} PRIVATE jounce_flags OpenMP::OpenMP_C)
+	target_sources(jounce PRIVATE $<TARGET_OBJECTS:jounce_kernels_${width}>)
+endfunction()
+
+jounce_add_kernels(2)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+	jounce_add_kernels(4 -mavx2 -mfma)
+	jounce_add_kernels(8 -mavx512f -mavx512dq -mavx512vl -mavx2 -mfma)
+endif()
+
+file(GLOB JN_COMMAND_SOURCES CONFIGURE_DEPENDS app/*.c)
+if(JN_COMMAND_SOURCES)
+	add_executable(jounce_command ${JN_COMMAND_SOURCES})
+	set_target_properties(jounce_command PROPERTIES OUTPUT_NAME jounce INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+	target_include_directories(jounce_command PRIVATE src app)
+
+	target_link_libraries(jounce_command PRIVATE jounce jounce_flags OpenMP::OpenMP_C m)
+endif()
