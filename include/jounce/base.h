@@ -1,0 +1,78 @@
+/// @file base.h
+/// What every other header builds on: status codes, messages, vectors, the state of a simulation.
+#ifndef JOUNCE_BASE_H
+#define JOUNCE_BASE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define JN_VERSION "0.1.0"
+
+/// What became of a call. 0 works; above 0 is an outcome that a step controller handles; below 0 ends the run.
+typedef enum JnStatus {
+	JN_OK = 0,
+	JN_NOT_CONVERGED = 1,  ///< an iteration did not reach its tolerance
+	JN_INDEFINITE = 2,     ///< a matrix that must be positive definite is not
+	JN_NOT_FINITE = 3,     ///< a force, position or velocity is infinite or NaN
+	JN_BAD_INPUT = -1,     ///< the user's file or arguments are wrong; the message says where
+	JN_IO_FAILED = -2,     ///< a file could not be read or written
+	JN_OUT_OF_MEMORY = -3, ///< an allocation failed
+	JN_RUN_FAILED = -4,    ///< the simulation could not go on; the last good state is kept
+} JnStatus;
+
+/// Return early with the status of `expression` unless it is JN_OK.
+#define JN_TRY(expression)                                                                                             \
+	do {                                                                                                               \
+		const JnStatus jn_try_status = (expression);                                                                   \
+		if (jn_try_status != JN_OK) return jn_try_status;                                                              \
+	} while (0)
+
+/// A short name for a status, such as "not converged". Static storage.
+const char* jn_status_name(JnStatus status);
+
+typedef enum JnLogLevel { JN_LOG_ERROR, JN_LOG_WARNING, JN_LOG_INFO } JnLogLevel;
+
+/// Receives every message of the library; `message` is one or more lines without a final newline, valid during the call.
+typedef void (*JnLogSink)(void* user, JnLogLevel level, const char* message);
+
+/// Send messages to `sink`; NULL restores the default, which writes errors and warnings to stderr. Not thread-safe.
+void jn_log_set_sink(JnLogSink sink, void* user);
+
+/// Three doubles a node, `3 * node_count` long, for the host space. Device spaces keep their own memory behind it.
+typedef double* JnVec;
+
+/// A scaled vector, one term of a sum.
+typedef struct JnTerm {
+	double scale;
+	const double* vec;
+} JnTerm;
+
+/// The state of a system at a time. Plain data; vectors belong to the space that created them.
+typedef struct JnState {
+	double t;       ///< time [s]
+	JnVec x, v;     ///< positions [m] and velocities [m/s]
+	uint64_t stamp; ///< renewed by jn_state_touch() at every edit; equal stamps mean equal bytes
+} JnState;
+
+/// What one step, or one attempt, has cost. Counts, summed over its stages.
+typedef struct JnReport {
+	int newton;         ///< Newton iterations
+	int forces;         ///< evaluations of f
+	int tangents;       ///< assemblies of K
+	int factorizations; ///< numeric factorisations
+	int solves;         ///< solves with a factor
+	int indefinite;     ///< Newton matrices that were indefinite and were replaced by the definite form
+	int backtracks;     ///< halvings in the line search
+	int rejected;       ///< attempts thrown away before this one
+	double residual;    ///< residual norm at the end of the last stage, relative to the force scale
+} JnReport;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

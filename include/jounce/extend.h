@@ -1,0 +1,248 @@
+/// @file extend.h
+/// The structs of verbs behind which everything exchangeable lives: key tables, spaces, systems, matrices,
+/// integrators, controllers. Include this to add a method, a law, a controller or a system of your own.
+#ifndef JOUNCE_EXTEND_H
+#define JOUNCE_EXTEND_H
+
+#include "jounce/base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// ---- keys: one row describes, parses, checks and documents one entry of a scene file ----
+
+/// What a key holds, and the type of the field that receives it.
+typedef enum JnKind {
+	JN_REAL,     ///< double; converted to the key's SI unit
+	JN_INTEGER,  ///< int
+	JN_SWITCH,   ///< bool: true, false, yes, no, on, off
+	JN_TEXT,     ///< const char*, owned by the scene; NULL when there is neither value nor default
+	JN_REAL3,    ///< double[3], each with the key's unit; NAN in all three when absent without default
+	JN_INTEGER3, ///< int[3]
+	JN_POINTS,   ///< JnPoints: a list of [time, value] pairs; times in s, values in the key's unit
+	JN_CHOICE,   ///< int: index into the NULL-terminated .names
+	JN_OBJECT,   ///< a nested struct with its own .keys, filled with defaults when absent
+	JN_OPTIONAL, ///< pointer to a nested struct with .keys and .size; NULL when absent
+	JN_LIST,     ///< JnItems: a list of nested structs with .keys and .size
+	JN_VARIANT,  ///< JnVariant: the row of .rows that the entry .tag names, with that row's own keys beside it
+} JnKind;
+
+typedef enum JnOpen {
+	JN_CLOSED = 0,
+	JN_OPEN_LOW = 1,
+	JN_OPEN_HIGH = 2
+} JnOpen; ///< which bounds are themselves outside
+
+typedef struct JnKey JnKey;
+
+/// The head of every row of a catalogue (an integrator, a law, a shape, a controller): first member of its struct.
+typedef struct JnRow {
+	const char* name;    ///< as written in scene files
+	const char* doc;     ///< one sentence
+	const JnKey* keys;   ///< the row's own keys, ended by a row without name; NULL: none
+	size_t options_size; ///< bytes of the struct that those keys fill
+} JnRow;
+
+/// A catalogue: all rows that may stand in one place.
+typedef struct JnRowList {
+	const char* noun;         ///< singular, such as "integrator"; used in messages
+	const JnRow* const* rows; ///< `count` rows
+	int count;
+} JnRowList;
+
+/// The value of a JN_VARIANT: the chosen row, and its options (row->options_size bytes; NULL if that is 0).
+typedef struct JnVariant {
+	const JnRow* row; ///< NULL when the key is absent and has no default
+	void* options;
+} JnVariant;
+
+/// The value of a JN_LIST: `count` structs, one behind the other.
+typedef struct JnItems {
+	int count;
+	void* data;
+} JnItems;
+
+/// The value of a JN_POINTS.
+typedef struct JnPoints {
+	int count;
+	double (*data)[2]; ///< [time in s, value in SI], in file order
+} JnPoints;
+
+/// One row a key: gives parsing with units, default, bounds, messages, `jounce describe` and the reference page.
+/// A table of keys ends with a row whose name is NULL.
+struct JnKey {
+	const char* name;
+	JnKind kind;
+	size_t field;        ///< offsetof the field in the struct that the table fills
+	double value[3];     ///< default of REAL, INTEGER, SWITCH, CHOICE (index), REAL3, INTEGER3; ignored if required
+	const char* text;    ///< default of TEXT, or the name of the default row of a VARIANT; NULL: none
+	double low, high;    ///< inclusive bounds of numbers (each component), SI; both 0: unbounded
+	JnOpen open;         ///< bounds that are exclusive
+	bool required;       ///< must be given in the file
+	bool absent_allowed; ///< REAL, REAL3: default is NAN, meaning "not given"
+	const char* unit;    ///< SI unit such as "m/s^2"; NULL or "": a pure number
+	const char* const* names; ///< CHOICE: the words, NULL at the end
+	const JnKey* keys;        ///< OBJECT, OPTIONAL, LIST: keys of the nested struct
+	size_t size;              ///< OPTIONAL, LIST: bytes of the nested struct
+	const JnRowList* rows;    ///< VARIANT: the catalogue
+	const char* tag;          ///< VARIANT: the entry that names the row, such as "method"
+	const char* remedy;  ///< what to do about a value outside its bounds, such as "use 0.49 for nearly incompressible"
+	const char* meaning; ///< one sentence or phrase, for describe and the reference page
+};
+
+// ---- space: where vectors live ----
+
+typedef struct JnSpace JnSpace;
+
+/// The algebra of vectors. All reductions run in an order that does not depend on the number of threads.
+typedef struct JnSpaceOps {
+	JnVec (*create)(JnSpace*);        ///< zeroed; NULL when memory is out
+	void (*destroy)(JnSpace*, JnVec); ///< NULL is allowed
+	void (*combine)(JnSpace*, JnVec out, int count,
+					const JnTerm terms[]); ///< out = sum of scale * vec; out may be a term
+	double (*dot)(JnSpace*, const double* a, const double* b);
+	double (*max)(JnSpace*, const double* a); ///< largest absolute entry; NAN if any is NAN
+} JnSpaceOps;
+
+struct JnSpace {
+	const JnSpaceOps* ops;
+	size_t length;       ///< entries of a vector
+	int threads;         ///< threads that a vector operation may use
+	uint64_t last_stamp; ///< stamps handed out so far
+};
+
+/// Renew the stamp of `s` after its time, positions or velocities have been edited.
+static inline void jn_state_touch(JnSpace* space, JnState* s) {
+	s->stamp = ++space->last_stamp;
+}
+
+// ---- system: M a = f(t, x, v), all that an integrator may know ----
+
+typedef struct JnSystem JnSystem;
+typedef struct JnMatrix JnMatrix;
+
+/// The coefficients of mass M + damping D + stiffness K.
+typedef struct JnShift {
+	double mass, damping, stiffness;
+} JnShift;
+
+typedef struct JnMatrixOps {
+	void (*apply)(JnMatrix*, const double* in, JnVec out);      ///< out = matrix * in, held entries included
+	JnStatus (*solve)(JnMatrix*, const double* rhs, JnVec out); ///< factors on first use; held entries of out are 0
+} JnMatrixOps;
+
+struct JnMatrix {
+	const JnMatrixOps* ops;
+	JnSystem* sys;
+	bool is_factored;    ///< a solve needs no new factorisation
+	double refresh_cost; ///< cost of a new tangent and factorisation, in iterations that use a kept one
+};
+
+typedef struct JnSystemOps {
+	JnStatus (*begin)(JnSystem*, const JnState* start);      ///< freeze damping, rotations, friction lag
+	void (*prescribe)(JnSystem*, JnState* s, JnVec a);       ///< write held nodes at s->t; a: accelerations, or NULL
+	void (*hold)(JnSystem*, JnVec r);                        ///< zero the held entries of r
+	JnStatus (*force)(JnSystem*, const JnState* s, JnVec f); ///< external + internal - D v [N]
+	double (*energy)(JnSystem*, const JnState* s);           ///< potential [J]; NAN when there is none
+	JnStatus (*linearize)(JnSystem*, const JnState* s);      ///< K and D at s; free when the stamp is known
+	JnStatus (*matrix)(JnSystem*, JnShift, JnMatrix** out);  ///< of the last linearize; owned by the system
+	double (*max_step)(JnSystem*, const JnState* from, const JnState* to); ///< largest admissible share of the step
+} JnSystemOps;
+
+struct JnSystem {
+	const JnSystemOps* ops;
+	JnSpace* space;
+	double
+		force_scale; ///< norm of typical forces [N], against which residuals are judged; 0: taken from the forces met
+	double force_floor;     ///< norm of what rounding leaves in a force [N]; residuals below it count as zero
+	bool is_linear_in_step; ///< forces are linear in x and v between two begin()s
+	JnReport* report;       ///< where the system counts its work; set by whoever steps it, never NULL during a step
+};
+
+// ---- integrators ----
+
+typedef struct JnIntegrator JnIntegrator;
+
+/// An attempt at a step: from `start`, which is const, to `end`, over `dt`.
+typedef struct JnStep {
+	JnSystem* sys;
+	const JnState* start;
+	JnState* end;
+	double dt;
+	JnReport report;
+} JnStep;
+
+typedef struct JnIntegratorType {
+	JnRow row;
+	int order;                                    ///< classical order
+	double force_weight;                          ///< w in eps = w dt^2 |M^-1 (F - F~)|, for the force-error controller
+	int vectors;                                  ///< work vectors that a step needs
+	const void* table;                            ///< coefficients, in the family's own form
+	JnStatus (*step)(JnIntegrator*, JnStep*);     ///< pure: the same start gives the same end
+	void (*commit)(JnIntegrator*, const JnStep*); ///< keep history; NULL for one-step methods
+	void (*reset)(JnIntegrator*);                 ///< forget history: someone edited the state; NULL for one-step
+} JnIntegratorType;
+
+/// Keys of `newton:` in a scene: how the stage problem is solved.
+typedef struct JnNewtonDef {
+	int mode;           ///< 0 root: Newton on the residual; 1 linear: one Newton step from a = 0
+	double tolerance;   ///< residual norm relative to the system's force scale
+	int max_iterations; ///< a stage
+	int reuse;          ///< 0 auto: keep K and its factor while they serve; 1 never
+	int guess; ///< first guess of a stage: 0 zero; 1 the last acceleration found; 2 the line through the last two
+} JnNewtonDef;
+
+struct JnIntegrator {
+	const JnIntegratorType* type;
+	const void* options; ///< struct of type->row.keys, or NULL
+	JnNewtonDef newton;
+	JnSpace* space;
+	JnVec* vectors;      ///< type->vectors of the method, behind them those of the stage solver
+	void* memory;        ///< history of multistep methods
+	uint64_t linearized; ///< stamp at which the kept K was made; 0: none
+	uint64_t step_stamp; ///< stamp of the start of the present step
+	int base_iterations; ///< of the first stage that the kept factor served; judges when it has become too old
+	double excess;       ///< iterations above base_iterations since then
+	int recent_count;    ///< accelerations kept for first guesses: 0, 1 or 2
+	double recent_t[2];  ///< their times [s], the latest first
+};
+
+/// Find a with  M a = f(t, x + kx a, v + kv a):  the only nonlinear problem that implicit methods have.
+/// Backward Euler, Newmark, generalised alpha, BDF2 and every DIRK stage differ in kx, kv, x and v alone.
+typedef struct JnStage {
+	double t, kx, kv;
+	const double *x, *v;
+} JnStage;
+
+/// Solve a stage. On exit s is the stage state and a its acceleration [m/s^2]. Returns JN_NOT_CONVERGED, JN_INDEFINITE or JN_NOT_FINITE as outcomes.
+JnStatus jn_stage_solve(JnIntegrator* integrator, JnSystem* sys, const JnStage* stage, JnState* s, JnVec a,
+						JnReport* report);
+
+// ---- controllers ----
+
+typedef struct JnController JnController;
+
+/// What a controller decides about an attempt.
+typedef struct JnVerdict {
+	bool accepted;
+	double dt; ///< size of the next attempt [s]
+} JnVerdict;
+
+typedef struct JnControllerType {
+	JnRow row;
+	size_t memory_size;             ///< bytes of memory that survive from attempt to attempt; zeroed at the start
+	double (*first)(JnController*); ///< size of the first step [s]
+	JnStatus (*judge)(JnController*, const JnStep*, JnStatus outcome, JnVerdict*); ///< sees failed attempts too
+} JnControllerType;
+
+struct JnController {
+	const JnControllerType* type;
+	const void* options; ///< struct of type->row.keys
+	void* memory;
+};
+
+#ifdef __cplusplus
+}
+#endif
+#endif

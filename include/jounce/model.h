@@ -1,0 +1,102 @@
+/// @file model.h
+/// What a model is made of: definition structs, filled from a scene file or by hand, and the model built from them.
+#ifndef JOUNCE_MODEL_H
+#define JOUNCE_MODEL_H
+
+#include "jounce/base.h"
+#include "jounce/extend.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A box of space, for selecting nodes.
+typedef struct JnRegionBoxDef {
+	double min[3], max[3]; ///< corners [m]
+} JnRegionBoxDef;
+
+/// A ball of space, for selecting nodes.
+typedef struct JnRegionSphereDef {
+	double center[3]; ///< [m]
+	double radius;    ///< [m]
+} JnRegionSphereDef;
+
+/// Which nodes of a body, by their rest positions. Exactly one of the fields is given.
+typedef struct JnSelectDef {
+	int face;                  ///< 0 none; 1 .. 6: side x- x+ y- y+ z- z+ of the body's bounding box; 7: all nodes
+	JnRegionBoxDef* box;       ///< nodes inside or on it
+	JnRegionSphereDef* sphere; ///< nodes inside or on it
+	double nearest[3];         ///< the one node nearest to a point [m]; NAN when not given
+} JnSelectDef;
+
+/// Nodes held at their rest position.
+typedef struct JnFixDef {
+	JnSelectDef where;
+	const char* axes; ///< which coordinates: any of "x", "y", "z"
+} JnFixDef;
+
+/// Nodes moved along prescribed paths.
+typedef struct JnDriveDef {
+	JnSelectDef where;
+	JnVariant motion[3]; ///< displacement along x, y, z; row NULL: not driven along that axis
+	int others;          ///< what the other axes do: 0 held, 1 free
+} JnDriveDef;
+
+/// Rayleigh damping D = alpha M + beta K.
+typedef struct JnDampingDef {
+	double alpha;  ///< [1/s]
+	double beta;   ///< [s]
+	int stiffness; ///< K taken at: 0 the start of the step, 1 rest, 2 the current state
+} JnDampingDef;
+
+typedef struct JnBodyDef {
+	const char* name;
+	JnVariant shape;    ///< row of jn_shape_list
+	JnVariant material; ///< row of jn_law_list
+	int mass;           ///< 0 consistent, 1 lumped
+	JnDampingDef damping;
+	double velocity[3]; ///< of all free nodes at the start [m/s]
+	JnItems fix;        ///< JnFixDef
+	JnItems drive;      ///< JnDriveDef
+} JnBodyDef;
+
+typedef struct JnModelDef {
+	double gravity[3]; ///< [m/s^2]
+	JnItems bodies;    ///< JnBodyDef
+	JnVariant solver;  ///< row of the solver list
+} JnModelDef;
+
+/// The rows of JnModelDef in a scene file.
+extern const JnKey jn_body_keys[];
+
+typedef struct JnModel JnModel;
+
+/// Build meshes, elements, mass and constraints. `threads` >= 1. On failure *model is NULL and a message says why.
+JnStatus jn_model_create(const JnModelDef* def, int threads, JnModel** model);
+void jn_model_destroy(JnModel* model);
+
+int jn_model_node_count(const JnModel* model);
+double jn_model_mass(const JnModel* model);                        ///< total [kg]
+const double* jn_model_rest(const JnModel* model);                 ///< rest positions, 3 * node_count [m]
+int jn_model_nearest(const JnModel* model, const double point[3]); ///< node whose rest position is nearest
+
+/// Energies [J] and momenta of a state.
+typedef struct JnEnergies {
+	double kinetic, elastic;
+	double gravity;     ///< potential, 0 at the rest positions
+	double momentum[3]; ///< [kg m/s]
+	double angular[3];  ///< about the origin [kg m^2/s]
+} JnEnergies;
+
+/// The model as a system M a = f(t, x, v); owned by the model.
+JnSystem* jn_model_system(JnModel* model);
+
+/// Put a state of the model's space at rest positions with the bodies' initial velocities, at time t.
+void jn_model_start(JnModel* model, double t, JnState* state);
+
+JnEnergies jn_model_energies(JnModel* model, const JnState* state);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,75 @@
+/// @file scene.h
+/// Scenes: a YAML file read into definitions, and run with recorders.
+#ifndef JOUNCE_SCENE_H
+#define JOUNCE_SCENE_H
+
+#include "jounce/sim.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A point whose motion goes into the series: the node nearest to it at rest.
+typedef struct JnProbeDef {
+	const char* name;
+	double at[3]; ///< rest position [m]
+} JnProbeDef;
+
+typedef struct JnRecordDef {
+	double interval; ///< simulated time between frames [s]; 0: every step
+	bool plots;      ///< draw plots/ at the end
+} JnRecordDef;
+
+/// All that a scene file says.
+typedef struct JnSceneDef {
+	const char* name;
+	const char* description;
+	JnSimDef sim;
+	JnItems probes; ///< JnProbeDef
+	JnRecordDef record;
+} JnSceneDef;
+
+extern const JnKey jn_scene_keys[]; ///< the keys at the root of a scene file, of JnSceneDef
+
+typedef struct JnScene JnScene;
+
+/// Read a scene file and apply `sets` ("step.dt=33ms"), in order. On failure *scene is NULL and a message says where
+/// and why: JN_IO_FAILED when the file cannot be read, JN_BAD_INPUT for everything else.
+JnStatus jn_scene_load(const char* path, int set_count, const char* const sets[], JnScene** scene);
+void jn_scene_destroy(JnScene* scene);
+const JnSceneDef* jn_scene_def(const JnScene* scene);
+const char* jn_scene_path(const JnScene* scene);
+
+/// How far a run is; given after every accepted step.
+typedef struct JnProgress {
+	long steps;
+	double t, t_end, dt;   ///< [s]
+	double wall_seconds;   ///< since stepping began
+	int newton;            ///< iterations of the last step
+	double specific_error; ///< |e_tot(t) - e_tot(0)| [J/kg]
+} JnProgress;
+
+typedef struct JnRunOptions {
+	const char* directory;                           ///< where results go; made if missing
+	int threads;                                     ///< 0: as many as there are
+	bool (*progress)(void* user, const JnProgress*); ///< return false to stop after this step; NULL: run to the end
+	void* user;
+} JnRunOptions;
+
+/// What a run came to.
+typedef struct JnRunResult {
+	bool was_stopped;
+	long steps, frames, rejected, newton, factorizations;
+	double t, wall_seconds;
+	double specific_error; ///< at the end [J/kg]
+	int nodes, elements;
+} JnRunResult;
+
+/// Simulate a scene and record it. JN_RUN_FAILED: the last good state is on disk. `result` is filled as far as the run
+/// came, also on failure.
+JnStatus jn_scene_run(const JnScene* scene, const JnRunOptions* options, JnRunResult* result);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

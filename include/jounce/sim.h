@@ -1,0 +1,44 @@
+/// @file sim.h
+/// A simulation: a model, an integrator and a step controller, stepped from state to state.
+#ifndef JOUNCE_SIM_H
+#define JOUNCE_SIM_H
+
+#include "jounce/model.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct JnSimDef {
+	JnModelDef model;
+	JnVariant integrator; ///< row of the integrator list
+	JnNewtonDef newton;
+	JnVariant step;  ///< row of the controller list
+	double duration; ///< simulated time [s]
+} JnSimDef;
+
+typedef struct JnSim JnSim;
+
+/// Build the model and put it at its start. `def` and what it points to must outlive the simulation. `threads` 0: as
+/// many as there are. On failure *sim is NULL and a message says why.
+JnStatus jn_sim_create(const JnSimDef* def, int threads, JnSim** sim);
+void jn_sim_destroy(JnSim* sim);
+
+/// Advance by one accepted step. JN_RUN_FAILED, after a message, when no admissible step works: the state is then still
+/// that of the last accepted step.
+JnStatus jn_sim_step(JnSim* sim);
+
+/// Has the whole duration been simulated?
+bool jn_sim_is_done(const JnSim* sim);
+
+JnModel* jn_sim_model(JnSim* sim);
+const JnState* jn_sim_state(const JnSim* sim);
+long jn_sim_steps(const JnSim* sim);                  ///< accepted so far
+double jn_sim_last_dt(const JnSim* sim);              ///< size of the last accepted step [s]; 0 before the first
+const JnReport* jn_sim_last_report(const JnSim* sim); ///< cost of the last step, its rejected attempts included
+int jn_sim_threads(const JnSim* sim);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,13 @@
+/// @file log.h
+/// Messages. Only the place that knows what went wrong writes the words; callers pass the status up.
+#ifndef JN_BASE_LOG_H
+#define JN_BASE_LOG_H
+
+#include "jounce/base.h"
+
+/// Log an error and return `status`: `return jn_error(JN_BAD_INPUT, "...", ...)`.
+JnStatus jn_error(JnStatus status, const char* format, ...) __attribute__((format(printf, 2, 3)));
+void jn_warn(const char* format, ...) __attribute__((format(printf, 1, 2)));
+void jn_info(const char* format, ...) __attribute__((format(printf, 1, 2)));
+
+#endif
