@@ -1,0 +1,42 @@
+#include "solve/blas.h"
+
+#include <cblas.h>
+#include <stdio.h>
+#include <string.h>
+
+void jn_blas_prepare(void) {
+	openblas_set_num_threads(1);
+}
+
+void jn_blas_name(char* out, size_t size) {
+	const char* config = openblas_get_config(); // "OpenBLAS 0.3.21 NO_LAPACKE DYNAMIC_ARCH ..."
+	const char* space = strchr(config, ' ');
+	const char* end = space != NULL ? strchr(space + 1, ' ') : NULL;
+	const int length = end != NULL ? (int)(end - config) : (int)strlen(config);
+	snprintf(out, size, "%.*s %s", length, config, openblas_get_corename());
+}
+
+#if defined(__x86_64__)
+// The kernels that the instruction set allows, in the names of OpenBLAS; NULL when any choice is fine.
+static const char* best_core(void) {
+	__builtin_cpu_init();
+	if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+		__builtin_cpu_supports("avx512vl"))
+		return "SKYLAKEX";
+	if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "HASWELL";
+	return NULL;
+}
+
+const char* jn_blas_better_core(void) {
+	static const char* const outdated[] = {"Prescott", "Core2",       "Penryn",  "Dunnington",   "Atom",
+										   "Nehalem",  "Sandybridge", "Opteron", "Opteron_SSE3", "Barcelona"};
+	const char* chosen = openblas_get_corename();
+	for (size_t i = 0; i < sizeof outdated / sizeof *outdated; ++i)
+		if (strcmp(chosen, outdated[i]) == 0) return best_core();
+	return NULL;
+}
+#else
+const char* jn_blas_better_core(void) {
+	return NULL;
+}
+#endif

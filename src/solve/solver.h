@@ -1,0 +1,46 @@
+/// @file solver.h
+/// Linear solvers for symmetric block matrices: analyse a pattern once, factor numbers often, solve more often.
+/// Linear algebra alone: no mechanics.
+#ifndef JN_SOLVE_SOLVER_H
+#define JN_SOLVE_SOLVER_H
+
+#include "jounce/extend.h"
+#include "math/pattern.h"
+
+typedef struct JnSolver JnSolver;
+
+/// What the first factorisation told about the size of the problem.
+typedef struct JnSolverCost {
+	double factor_flops;   ///< floating-point operations of a factorisation
+	double factor_entries; ///< non-zeros of the factor
+	size_t bytes;          ///< memory of one factor
+} JnSolverCost;
+
+typedef struct JnSolverType {
+	JnRow row;
+	/// Analyse the pattern without the held entries (held[3 * node + axis]). Sets *out, or a status with a message.
+	JnStatus (*create)(const void* options, const JnPattern* pattern, const bool* held, JnSolver** out);
+	void (*destroy)(JnSolver*);
+	/// Factor the numbers blocks[9 * block] into `slot`. JN_INDEFINITE when the matrix is not positive definite.
+	JnStatus (*factor)(JnSolver*, int slot, const double* blocks);
+	/// out = A^-1 rhs with the factor of `slot`; held entries of out are 0. Vectors of 3 * nodes; out may be rhs.
+	JnStatus (*solve)(JnSolver*, int slot, const double* rhs, double* out);
+	JnSolverCost (*cost)(const JnSolver*);
+} JnSolverType;
+
+enum { JN_SOLVER_SLOTS = 4 }; ///< factors that a solver keeps at once
+
+struct JnSolver {
+	const JnSolverType* type;
+};
+
+extern const JnRowList jn_solver_list; ///< rows are &JnSolverType.row
+
+/// Keys of `solver: {method: direct}`.
+typedef struct JnDirectDef {
+	int ordering; ///< 0 auto: the better of METIS and AMD; 1 metis; 2 amd
+} JnDirectDef;
+
+extern const JnSolverType jn_solver_direct;
+
+#endif
