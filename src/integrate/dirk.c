@@ -1,0 +1,119 @@
+// Diagonally implicit Runge-Kutta methods on M a = f(t, x, v) (HO section 3.2, equations 7 to 9).
+//
+// Stage i, with h = a_ii dt and stage derivatives U_i = dx/dt, V_i = dv/dt:
+//   v~ = v + dt sum_{j<i} a_ij V_j,   x~ = x + dt sum_{j<i} a_ij U_j + h v~
+//   M V_i = f(t + c_i dt, x~ + h^2 V_i, v~ + h V_i),   U_i = v~ + h V_i
+// and  x+ = x + dt sum b_i U_i,  v+ = v + dt sum b_i V_i,  which is the last stage itself when b = last row of A.
+#include "base/space.h"
+#include "integrate/dirk_tableau.h"
+#include "integrate/integrator.h"
+
+/// Work vectors: x~, v~, then U_i and V_i of each stage.
+enum { STAGE_X, STAGE_V, DERIVATIVES, VECTORS = DERIVATIVES + 2 * JN_MAX_STAGES };
+
+static JnVec rate_x(const JnIntegrator* self, int i) {
+	return self->vectors[DERIVATIVES + 2 * i];
+}
+
+static JnVec rate_v(const JnIntegrator* self, int i) {
+	return self->vectors[DERIVATIVES + 2 * i + 1];
+}
+
+// out = base + dt sum_{j < count} weight_j rate_j + extra * also
+static void add_rates(const JnIntegrator* self, JnVec (*rate)(const JnIntegrator*, int), const double* base, double dt,
+					  int count, const double weight[], JnTerm also, JnVec out) {
+	JnTerm terms[JN_MAX_STAGES + 2] = {{1, base}};
+	int n = 1;
+	for (int j = 0; j < count; ++j)
+		if (weight[j] != 0) terms[n++] = (JnTerm){dt * weight[j], rate(self, j)};
+	if (also.scale != 0) terms[n++] = also;
+	self->space->ops->combine(self->space, out, n, terms);
+}
+
+static const JnTerm nothing = {0, NULL};
+
+static JnStatus explicit_stage(JnIntegrator* self, JnStep* step, int i) {
+	const JnTableau* table = self->type->table;
+	JnState* s = step->end;
+	if (i == 0) {
+		jn_state_copy(self->space, step->start, s); // the stamp comes along: forces at the start are known
+	} else {
+		add_rates(self, rate_x, step->start->x, step->dt, i, table->a[i], nothing, s->x);
+		add_rates(self, rate_v, step->start->v, step->dt, i, table->a[i], nothing, s->v);
+		s->t = step->start->t + table->c[i] * step->dt;
+		step->sys->ops->prescribe(step->sys, s, NULL);
+		jn_state_touch(self->space, s);
+	}
+	JN_TRY(jn_acceleration(self, step->sys, s, rate_v(self, i)));
+	self->space->ops->combine(self->space, rate_x(self, i), 1, (JnTerm[]){{1, s->v}});
+	return JN_OK;
+}
+
+static JnStatus implicit_stage(JnIntegrator* self, JnStep* step, int i) {
+	const JnTableau* table = self->type->table;
+	const double h = table->a[i][i] * step->dt;
+	JnVec x = self->vectors[STAGE_X], v = self->vectors[STAGE_V], a = rate_v(self, i);
+	add_rates(self, rate_v, step->start->v, step->dt, i, table->a[i], nothing, v);
+	add_rates(self, rate_x, step->start->x, step->dt, i, table->a[i], (JnTerm){h, v}, x);
+	const JnStage stage = {.t = step->start->t + table->c[i] * step->dt, .kx = h * h, .kv = h, .x = x, .v = v};
+	JN_TRY(jn_stage_solve(self, step->sys, &stage, step->end, a, &step->report));
+	self->space->ops->combine(self->space, rate_x(self, i), 1, (JnTerm[]){{1, step->end->v}});
+	return JN_OK;
+}
+
+static bool ends_on_last_stage(const JnTableau* table) {
+	for (int j = 0; j < table->stages; ++j)
+		if (table->b[j] != table->a[table->stages - 1][j]) return false;
+	return true;
+}
+
+static JnStatus dirk_step(JnIntegrator* self, JnStep* step) {
+	const JnTableau* table = self->type->table;
+	step->sys->report = &step->report;
+	self->step_stamp = step->start->stamp;
+	for (int i = 0; i < table->stages; ++i)
+		JN_TRY(table->a[i][i] == 0 ? explicit_stage(self, step, i) : implicit_stage(self, step, i));
+	if (!ends_on_last_stage(table)) {
+		add_rates(self, rate_x, step->start->x, step->dt, table->stages, table->b, nothing, step->end->x);
+		add_rates(self, rate_v, step->start->v, step->dt, table->stages, table->b, nothing, step->end->v);
+	}
+	step->end->t = step->start->t + step->dt;
+	step->sys->ops->prescribe(step->sys, step->end, NULL);
+	if (!ends_on_last_stage(table)) jn_state_touch(self->space, step->end);
+	return jn_state_check(self->space, step->end);
+}
+
+// force_weight: a_ii^2 of the last implicit stage (math of the force-error controller, w for a method with that stage).
+#define DIRK(method, p, diagonal, words)                                                                               \
+	static const JnIntegratorType method = {                                                                           \
+		.row = {.name = #method, .doc = words},                                                                        \
+		.order = p,                                                                                                    \
+		.force_weight = (diagonal) * (diagonal),                                                                       \
+		.vectors = VECTORS,                                                                                            \
+		.table = &jn_tableau_##method,                                                                                 \
+		.step = dirk_step,                                                                                             \
+	};
+
+DIRK(backward_euler, 1, 1, "one solve; very robust, damps strongly")
+DIRK(sdirk2, 2, 0.2928932188134525, "Alexander 1977: two solves, one matrix; the default for low damping")
+DIRK(sdirk3, 3, 0.4358665215084590, "Alexander 1977: three solves, third order")
+DIRK(tr_bdf2, 2, 0.2928932188134525, "Bank et al. 1985: two solves; keeps its order on stiff rotating bodies")
+DIRK(tr_bdf2_b, 2, 1.0 / 3, "Bathe 2007: trapezoid then BDF2 at half the step; two matrices")
+DIRK(sdirk_ncs23, 3, 0.7886751345948129, "Norsett, Crouzeix: two solves, third order, not stiffly accurate")
+DIRK(sdirk_nc34, 4, 1.068579021301629, "Norsett, Crouzeix: three solves, fourth order, not stiffly accurate")
+DIRK(sdirk_3345, 3, 1.068579021301629, "Franco, Gomez, Randez 1997: low dispersion, for smooth oscillations")
+DIRK(sdirk_4347, 3, 1.280579761275305,
+	 "Franco, Gomez, Randez 1997: lowest dissipation, for smooth oscillations at small steps")
+DIRK(implicit_midpoint, 2, 0.5, "one solve; no numerical damping at all, symplectic")
+DIRK(trapezoid, 2, 0.5, "one solve; no numerical damping, Newmark with beta = 1/4 and gamma = 1/2")
+DIRK(esdirk324, 3, 0.4358665215084590, "Kennedy, Carpenter 2019: three solves, third order, stage order two")
+DIRK(esdirk325, 3, 0.225, "Kennedy, Carpenter 2019: four solves, third order, small phase error")
+DIRK(esdirk436, 4, 0.25, "Kennedy, Carpenter 2019: five solves, fourth order, the most accurate here per solve")
+
+static const JnRow* const rows[] = {
+	&backward_euler.row, &sdirk2.row,     &sdirk3.row,     &tr_bdf2.row,    &tr_bdf2_b.row,
+	&sdirk_ncs23.row,    &sdirk_nc34.row, &sdirk_3345.row, &sdirk_4347.row, &implicit_midpoint.row,
+	&trapezoid.row,      &esdirk324.row,  &esdirk325.row,  &esdirk436.row,
+};
+
+const JnRowList jn_integrator_list = {.noun = "integrator", .rows = rows, .count = sizeof rows / sizeof *rows};

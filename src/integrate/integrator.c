@@ -1,0 +1,112 @@
+#include "integrate/integrator.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/log.h"
+#include "integrate/stage.h"
+
+static int vector_count(const JnIntegratorType* type) {
+	return type->vectors + JN_STAGE_VECTORS;
+}
+
+JnIntegrator* jn_integrator_create(const JnVariant* choice, const JnNewtonDef* newton, JnSpace* space) {
+	JnIntegrator* self = calloc(1, sizeof *self);
+	if (self == NULL) {
+		jn_error(JN_OUT_OF_MEMORY, "out of memory: integrator");
+		return NULL;
+	}
+	self->type = (const JnIntegratorType*)choice->row;
+	self->options = choice->options;
+	self->newton = *newton;
+	self->space = space;
+	const int count = vector_count(self->type);
+	self->vectors = calloc((size_t)count, sizeof *self->vectors);
+	bool is_complete = self->vectors != NULL;
+	for (int i = 0; is_complete && i < count; ++i) {
+		self->vectors[i] = space->ops->create(space);
+		is_complete = self->vectors[i] != NULL;
+	}
+	if (is_complete) return self;
+	jn_integrator_destroy(self);
+	return NULL;
+}
+
+void jn_integrator_destroy(JnIntegrator* self) {
+	if (self == NULL) return;
+	for (int i = 0; self->vectors != NULL && i < vector_count(self->type); ++i)
+		self->space->ops->destroy(self->space, self->vectors[i]);
+	free(self->vectors);
+	free(self);
+}
+
+void jn_integrator_forget(JnIntegrator* self) {
+	self->linearized = 0;
+	self->recent_count = 0;
+}
+
+void jn_integrator_reset(JnIntegrator* self) {
+	jn_integrator_forget(self);
+	if (self->type->reset != NULL) self->type->reset(self);
+}
+
+JnStatus jn_acceleration(JnIntegrator* self, JnSystem* sys, JnState* s, JnVec a) {
+	JnSpace* space = sys->space;
+	JnVec* work = self->vectors + self->type->vectors;
+	JnVec f = work[JN_STAGE_RESIDUAL], inertia = work[JN_STAGE_MASS], free_part = work[JN_STAGE_STEP];
+	JnMatrix* mass = NULL;
+	JN_TRY(sys->ops->matrix(sys, (JnShift){.mass = 1}, &mass));
+	JN_TRY(sys->ops->force(sys, s, f));
+	space->ops->combine(space, a, 0, NULL);
+	sys->ops->prescribe(sys, s, a); // rewrites the held entries of s with the values that they have
+	mass->ops->apply(mass, a, inertia);
+	space->ops->combine(space, f, 2, (JnTerm[]){{1, f}, {-1, inertia}});
+	sys->ops->hold(sys, f);
+	JN_TRY(mass->ops->solve(mass, f, free_part));
+	space->ops->combine(space, a, 2, (JnTerm[]){{1, a}, {1, free_part}});
+	return isfinite(space->ops->max(space, a)) ? JN_OK : JN_NOT_FINITE;
+}
+
+JnStatus jn_state_check(JnSpace* space, const JnState* s) {
+	const bool is_finite = isfinite(space->ops->max(space, s->x)) && isfinite(space->ops->max(space, s->v));
+	return is_finite ? JN_OK : JN_NOT_FINITE;
+}
+
+static const char* const modes[] = {"root", "linear", NULL};
+static const char* const reuses[] = {"auto", "never", NULL};
+static const char* const guesses[] = {"zero", "last", "linear", NULL};
+
+const JnKey jn_newton_keys[] = {
+	{.name = "mode",
+	 .kind = JN_CHOICE,
+	 .field = offsetof(JnNewtonDef, mode),
+	 .names = modes,
+	 .meaning = "root: Newton on the residual with a line search; linear: one Newton step from zero acceleration"},
+	{.name = "tolerance",
+	 .kind = JN_REAL,
+	 .field = offsetof(JnNewtonDef, tolerance),
+	 .value = {1e-8},
+	 .low = 0,
+	 .high = 1,
+	 .open = JN_OPEN_LOW,
+	 .meaning = "residual norm at which a stage is solved, relative to the weight or the internal forces"},
+	{.name = "max_iterations",
+	 .kind = JN_INTEGER,
+	 .field = offsetof(JnNewtonDef, max_iterations),
+	 .value = {60},
+	 .low = 1,
+	 .high = 10000,
+	 .meaning = "iterations a stage, before the step counts as failed"},
+	{.name = "reuse",
+	 .kind = JN_CHOICE,
+	 .field = offsetof(JnNewtonDef, reuse),
+	 .names = reuses,
+	 .meaning = "auto: keep a tangent and its factor while they serve (quasi-Newton); never: a new one an iteration"},
+	{.name = "guess",
+	 .kind = JN_CHOICE,
+	 .field = offsetof(JnNewtonDef, guess),
+	 .names = guesses,
+	 .value = {2},
+	 .meaning = "first guess of a stage's acceleration: zero, the last one found, or the line through the last two"},
+	{0},
+};

@@ -1,0 +1,28 @@
+/// @file integrator.h
+/// Making and running integrators; the methods themselves are rows of the list.
+#ifndef JN_INTEGRATE_INTEGRATOR_H
+#define JN_INTEGRATE_INTEGRATOR_H
+
+#include "jounce/extend.h"
+
+extern const JnRowList jn_integrator_list; ///< rows are &JnIntegratorType.row
+extern const JnKey jn_newton_keys[];       ///< of JnNewtonDef
+
+/// An integrator of the method `choice` with vectors of `space`; NULL when memory is out. It keeps pointers to the
+/// options of `choice`. Free with jn_integrator_destroy.
+JnIntegrator* jn_integrator_create(const JnVariant* choice, const JnNewtonDef* newton, JnSpace* space);
+void jn_integrator_destroy(JnIntegrator* integrator);
+
+/// Forget the kept tangent: the next stage makes a new one.
+void jn_integrator_forget(JnIntegrator* integrator);
+
+/// Forget everything that came from earlier steps, because someone edited the state: kept tangent and history.
+void jn_integrator_reset(JnIntegrator* integrator);
+
+/// a = M^-1 f(s): the acceleration of a state, held entries as prescribed [m/s^2]. Uses integrator->residual as work.
+JnStatus jn_acceleration(JnIntegrator* integrator, JnSystem* sys, JnState* s, JnVec a);
+
+/// JN_OK, or JN_NOT_FINITE when a position or velocity is infinite or NaN.
+JnStatus jn_state_check(JnSpace* space, const JnState* s);
+
+#endif
