@@ -1,0 +1,209 @@
+// run.h5: everything of a run in one file.
+//
+//   /mesh/nodes [n,3]            rest positions [m]        /frames/00000000/position [n,3]  [m]
+//   /mesh/<body>/cells [c,k]     global node numbers       /frames/00000000/velocity [n,3]  [m/s]
+//   /topology/cells, body        all bodies, for XDMF      /series/<column> [steps]         one value a step
+//   /scene                       the scene file's text     attributes of /: who, where, when, outcome
+#include <stdlib.h>
+
+#include "base/log.h"
+#include "record/h5_file.h"
+#include "record/host.h"
+#include "record/recorder.h"
+#include "record/topology.h"
+
+enum { BUFFERED_STEPS = 256 };
+
+typedef struct Hdf5 {
+	JnRecorder base;
+	JnH5File file;
+	hid_t* datasets; // one a column
+	double* values;  // [column][BUFFERED_STEPS]
+	int64_t* counts; // BUFFERED_STEPS, for the columns that are counts
+	int buffered;    // steps in `values`
+	hsize_t length;  // steps in the file
+	long frame_count;
+	double flushed; // clock at the last flush of the series [s]
+} Hdf5;
+
+static JnStatus write_bodies(JnH5File* file, const JnRecordInfo* info) {
+	for (int i = 0; i < info->body_count; i++) {
+		const JnRecordBody* body = &info->bodies[i];
+		const JnShapeInfo* shape = &jn_shape_info[body->shape];
+		const hsize_t dims[2] = {(hsize_t)body->cell_count, (hsize_t)shape->nodes};
+		char name[512];
+		snprintf(name, sizeof name, "/mesh/%s/cells", body->name);
+		JN_TRY(jn_h5_array(file, name, H5T_STD_I32LE, H5T_NATIVE_INT, 2, dims, body->cells));
+		JN_TRY(jn_h5_attribute_text(file, name, "shape", shape->name));
+		JN_TRY(jn_h5_attribute_integer(file, name, "vtk_type", shape->vtk_type));
+		JN_TRY(jn_h5_attribute_integer(file, name, "first_node", body->first_node));
+		JN_TRY(jn_h5_attribute_integer(file, name, "node_count", body->node_count));
+	}
+	return JN_OK;
+}
+
+// What XDMF shows: the cells of all bodies in one array, and the number of its body for each.
+static JnStatus write_topology(JnH5File* file, const JnRecordInfo* info) {
+	JnTopology topology;
+	JN_TRY(jn_topology_create(&topology, info));
+	const int rank = topology.is_mixed ? 1 : 2;
+	const hsize_t cells[2] = {(hsize_t)topology.rows, (hsize_t)topology.row_length};
+	const hsize_t bodies[1] = {(hsize_t)topology.cell_count};
+	JnStatus status = jn_h5_array(file, "/topology/cells", H5T_STD_I32LE, H5T_NATIVE_INT, rank, cells, topology.cells);
+	if (status == JN_OK) {
+		status = jn_h5_array(file, "/topology/body", H5T_STD_I32LE, H5T_NATIVE_INT, 1, bodies, topology.bodies);
+	}
+	jn_topology_destroy(&topology);
+	return status;
+}
+
+static JnStatus write_mesh(JnH5File* file, const JnRecordInfo* info) {
+	const hsize_t dims[2] = {(hsize_t)info->node_count, 3};
+	JN_TRY(jn_h5_array(file, "/mesh/nodes", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, info->nodes));
+	JN_TRY(jn_h5_attribute_text(file, "/mesh/nodes", "unit", "m"));
+	JN_TRY(write_bodies(file, info));
+	return write_topology(file, info);
+}
+
+static JnStatus write_facts(JnH5File* file, const JnRecordInfo* info) {
+	const JnHost host = jn_host_describe();
+	char machine[512], created[32];
+	snprintf(machine, sizeof machine, "%s: %s, %d cores, %s", host.name, host.processor, host.cores, host.system);
+	jn_host_time(created);
+	const char* const texts[][2] = {
+		{"jounce_version", JN_VERSION},
+		{"scene_name", info->scene_name},
+		{"scene_path", info->scene_path},
+		{"method", info->method},
+		{"host", machine},
+		{"blas", info->blas},
+		{"created", created},
+		{"outcome", "running"},
+	};
+	for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+		JN_TRY(jn_h5_attribute_text(file, "/", texts[i][0], texts[i][1]));
+	}
+	JN_TRY(jn_h5_attribute_integer(file, "/", "threads", info->threads));
+	JN_TRY(jn_h5_attribute_integer(file, "/", "simd_width", info->simd_width));
+	JN_TRY(jn_h5_attribute_real(file, "/", "total_mass", info->total_mass));
+	return jn_h5_text(file, "/scene", info->scene_text);
+}
+
+static JnStatus create_series(Hdf5* hdf5, const JnRecordInfo* info) {
+	JN_TRY(jn_h5_group(&hdf5->file, "/series"));
+	for (int i = 0; i < info->column_count; i++) {
+		const JnColumn* column = &info->columns[i];
+		char name[512];
+		snprintf(name, sizeof name, "/series/%s", column->name);
+		const hid_t type = column->is_count ? H5T_STD_I64LE : H5T_IEEE_F64LE;
+		JN_TRY(jn_h5_extendible(&hdf5->file, name, type, &hdf5->datasets[i]));
+		JN_TRY(jn_h5_attribute_text(&hdf5->file, name, "unit", column->unit));
+	}
+	return JN_OK;
+}
+
+static JnStatus write_start(Hdf5* hdf5, const JnRecordInfo* info) {
+	JnH5File* file = &hdf5->file;
+	JN_TRY(write_facts(file, info));
+	JN_TRY(write_mesh(file, info));
+	JN_TRY(jn_h5_group(file, "/frames"));
+	JN_TRY(jn_h5_attribute_integer(file, "/frames", "count", 0));
+	JN_TRY(create_series(hdf5, info));
+	return jn_h5_flush(file);
+}
+
+static void free_buffers(Hdf5* hdf5) {
+	free(hdf5->datasets);
+	free(hdf5->values);
+	free(hdf5->counts);
+}
+
+static JnStatus open_hdf5(JnRecorder* recorder, const JnRecordInfo* info) {
+	Hdf5* hdf5 = (Hdf5*)recorder;
+	const size_t columns = (size_t)info->column_count + 1; // never a malloc of nothing
+	hdf5->datasets = malloc(columns * sizeof *hdf5->datasets);
+	hdf5->values = malloc(columns * BUFFERED_STEPS * sizeof *hdf5->values);
+	hdf5->counts = malloc(BUFFERED_STEPS * sizeof *hdf5->counts);
+	JnStatus status = JN_OK;
+	if (hdf5->datasets == NULL || hdf5->values == NULL || hdf5->counts == NULL) {
+		status = jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for the series of run.h5");
+	}
+	if (status == JN_OK) status = jn_h5_create(&hdf5->file, info->directory, "run.h5");
+	if (status == JN_OK) {
+		status = write_start(hdf5, info);
+		if (status != JN_OK) jn_h5_close(&hdf5->file);
+	}
+	if (status != JN_OK) free_buffers(hdf5);
+	hdf5->flushed = jn_host_clock();
+	return status;
+}
+
+static JnStatus append_series(Hdf5* hdf5) {
+	const JnRecordInfo* info = hdf5->base.info;
+	const hsize_t count = (hsize_t)hdf5->buffered;
+	for (int i = 0; i < info->column_count && count > 0; i++) {
+		const double* values = hdf5->values + (size_t)i * BUFFERED_STEPS;
+		const bool is_count = info->columns[i].is_count;
+		for (int k = 0; is_count && k < hdf5->buffered; k++) hdf5->counts[k] = (int64_t)values[k];
+		const void* data = is_count ? (const void*)hdf5->counts : values;
+		const hid_t type = is_count ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE;
+		JN_TRY(jn_h5_append(&hdf5->file, hdf5->datasets[i], type, hdf5->length, count, data));
+	}
+	hdf5->length += count;
+	hdf5->buffered = 0;
+	hdf5->flushed = jn_host_clock();
+	return JN_OK;
+}
+
+static JnStatus write_frame(Hdf5* hdf5, const JnRecordStep* step) {
+	JnH5File* file = &hdf5->file;
+	const hsize_t dims[2] = {(hsize_t)hdf5->base.info->node_count, 3};
+	char group[64], position[80], velocity[80];
+	snprintf(group, sizeof group, "/frames/%08ld", hdf5->frame_count);
+	snprintf(position, sizeof position, "%s/position", group);
+	snprintf(velocity, sizeof velocity, "%s/velocity", group);
+	JN_TRY(jn_h5_array(file, position, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, step->x));
+	JN_TRY(jn_h5_array(file, velocity, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, step->v));
+	JN_TRY(jn_h5_attribute_real(file, group, "time", step->t));
+	JN_TRY(jn_h5_attribute_integer(file, group, "step", step->step));
+	hdf5->frame_count++;
+	return jn_h5_attribute_integer(file, "/frames", "count", hdf5->frame_count);
+}
+
+static void buffer_row(Hdf5* hdf5, int column_count, const double* values) {
+	for (int i = 0; i < column_count; i++) hdf5->values[i * BUFFERED_STEPS + hdf5->buffered] = values[i];
+	hdf5->buffered++;
+}
+
+static JnStatus write_hdf5(JnRecorder* recorder, const JnRecordStep* step) {
+	Hdf5* hdf5 = (Hdf5*)recorder;
+	if (step->values != NULL) buffer_row(hdf5, recorder->info->column_count, step->values);
+	const bool is_due = hdf5->buffered == BUFFERED_STEPS || jn_host_clock() - hdf5->flushed >= 1;
+	if (is_due) JN_TRY(append_series(hdf5));
+	if (step->is_frame) JN_TRY(write_frame(hdf5, step));
+	return is_due || step->is_frame ? jn_h5_flush(&hdf5->file) : JN_OK;
+}
+
+static JnStatus write_end(Hdf5* hdf5, const JnRecordEnd* end) {
+	JN_TRY(append_series(hdf5));
+	JN_TRY(jn_h5_attribute_text(&hdf5->file, "/", "outcome", end->outcome));
+	JN_TRY(jn_h5_attribute_text(&hdf5->file, "/", "message", end->message));
+	return jn_h5_flush(&hdf5->file);
+}
+
+static JnStatus close_hdf5(JnRecorder* recorder, const JnRecordEnd* end) {
+	Hdf5* hdf5 = (Hdf5*)recorder;
+	if (!hdf5->file.is_broken) write_end(hdf5, end);
+	const JnStatus status = jn_h5_close(&hdf5->file);
+	free_buffers(hdf5);
+	return status;
+}
+
+const JnRecorderType jn_recorder_hdf5 = {
+	.name = "hdf5",
+	.doc = "run.h5: mesh, frames, series and scene",
+	.size = sizeof(Hdf5),
+	.open = open_hdf5,
+	.write = write_hdf5,
+	.close = close_hdf5,
+};

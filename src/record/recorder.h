@@ -1,0 +1,93 @@
+/// @file recorder.h
+/// What was accepted, written down: each recorder is a file and a row. Recorders see finished steps only.
+#ifndef JN_RECORD_RECORDER_H
+#define JN_RECORD_RECORDER_H
+
+#include "base/arena.h"
+#include "jounce/base.h"
+#include "mesh/mesh.h"
+
+/// One column of the per-step series.
+typedef struct JnColumn {
+	const char* name; ///< "t", "kinetic", "probe.mid.y"
+	const char* unit; ///< "s", "J", "" for counts
+	bool is_count;    ///< written as an integer
+} JnColumn;
+
+/// The part of the mesh that one body owns.
+typedef struct JnRecordBody {
+	const char* name;
+	JnShape shape;
+	int first_node, node_count;
+	int cell_count;
+	const int* cells; ///< global node numbers
+} JnRecordBody;
+
+/// All that stays constant over a run.
+typedef struct JnRecordInfo {
+	const char* directory; ///< exists and is writable
+	const char* scene_name;
+	const char* scene_path;
+	const char* scene_text; ///< the file, with `--set` overrides as comment lines at its end
+	const char* method;     ///< integrator's name
+	int node_count;
+	const double* nodes; ///< rest positions, 3 * node_count [m]
+	int body_count;
+	const JnRecordBody* bodies;
+	int column_count;
+	const JnColumn* columns;
+	bool wants_plots;  ///< draw plots/ at the end
+	double total_mass; ///< [kg]
+	int threads, simd_width;
+	const char* blas; ///< such as "OpenBLAS 0.3.21 SkylakeX"
+} JnRecordInfo;
+
+/// One accepted step (or the start, step 0).
+typedef struct JnRecordStep {
+	long step;
+	double t;
+	bool is_frame;        ///< positions and velocities are due
+	const double *x, *v;  ///< 3 * node_count
+	const double* values; ///< column_count numbers
+} JnRecordStep;
+
+/// How the run ended.
+typedef struct JnRecordEnd {
+	const char* outcome; ///< "done", "failed", "interrupted"
+	const char* message; ///< one line, or ""
+	double wall_seconds; ///< time spent stepping
+	double setup_seconds;
+	long steps, frames, rejected, newton, factorizations, solves, forces, tangents, indefinite;
+	double t, t_end;                           ///< reached and wanted [s]
+	double specific_error, specific_error_max; ///< |e_tot(t) - e_tot(0)|, at the end and largest [J/kg]
+} JnRecordEnd;
+
+typedef struct JnRecorder JnRecorder;
+
+typedef struct JnRecorderType {
+	const char* name;
+	const char* doc;
+	size_t size; ///< bytes of the recorder's own struct, whose first member is a JnRecorder
+	JnStatus (*open)(JnRecorder*, const JnRecordInfo*); ///< info outlives the recorder
+	JnStatus (*write)(JnRecorder*, const JnRecordStep*);
+	JnStatus (*close)(JnRecorder*, const JnRecordEnd*); ///< called once for every opened recorder, also after failure
+} JnRecorderType;
+
+struct JnRecorder {
+	const JnRecorderType* type;
+	const JnRecordInfo* info;
+};
+
+extern const JnRecorderType* const jn_recorder_list[]; ///< NULL at the end, in the order in which they run
+
+/// The recorders of a run: open all, feed all, close all.
+typedef struct JnRecorders {
+	int count;
+	JnRecorder** list;
+} JnRecorders;
+
+JnStatus jn_recorders_open(JnRecorders* recorders, JnArena* arena, const JnRecordInfo* info);
+JnStatus jn_recorders_write(JnRecorders* recorders, const JnRecordStep* step);
+JnStatus jn_recorders_close(JnRecorders* recorders, const JnRecordEnd* end);
+
+#endif

@@ -1,0 +1,87 @@
+// series.csv: a header and one row a step. Numbers read back to the same bits; the file on disk ends with a whole row.
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/log.h"
+#include "record/host.h"
+#include "record/recorder.h"
+#include "record/text_file.h"
+
+enum { BUFFER_BYTES = 1 << 16, NUMBER_BYTES = 32 };
+
+typedef struct Series {
+	JnRecorder base;
+	JnTextFile file;
+	char* line;     // of a row: NUMBER_BYTES a column
+	size_t pending; // bytes in the stream's buffer, at most BUFFER_BYTES
+	double flushed; // clock at the last flush [s]
+	bool is_broken; // a failure has been told
+} Series;
+
+static JnStatus flush(Series* series) {
+	series->pending = 0;
+	series->flushed = jn_host_clock();
+	const JnStatus status = jn_text_flush(&series->file);
+	series->is_broken = status != JN_OK;
+	return status;
+}
+
+static JnStatus open_series(JnRecorder* recorder, const JnRecordInfo* info) {
+	Series* series = (Series*)recorder;
+	series->line = malloc((size_t)info->column_count * NUMBER_BYTES + 1);
+	if (series->line == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for a row of series.csv");
+	JnStatus status = jn_text_open(&series->file, info->directory, "series.csv", JN_TEXT_DIRECT);
+	if (status == JN_OK) {
+		setvbuf(series->file.stream, NULL, _IOFBF, BUFFER_BYTES);
+		for (int i = 0; i < info->column_count; i++) {
+			jn_text_print(&series->file, "%s%s", i > 0 ? "," : "", info->columns[i].name);
+		}
+		jn_text_print(&series->file, "\n");
+		status = flush(series);
+	}
+	if (status == JN_OK) return JN_OK;
+	jn_text_abandon(&series->file);
+	free(series->line);
+	return status;
+}
+
+// 15 digits where they are enough, 17 where not: both read back to the same double.
+static int print_number(char out[NUMBER_BYTES], double value, bool is_count) {
+	if (is_count && fabs(value) < 0x1p53) return snprintf(out, NUMBER_BYTES, "%.0f", value);
+	const int length = snprintf(out, NUMBER_BYTES, "%.15g", value);
+	return strtod(out, NULL) == value ? length : snprintf(out, NUMBER_BYTES, "%.17g", value);
+}
+
+static JnStatus write_series(JnRecorder* recorder, const JnRecordStep* step) {
+	Series* series = (Series*)recorder;
+	const JnRecordInfo* info = recorder->info;
+	size_t length = 0;
+	if (step->values == NULL) return JN_OK;
+	for (int i = 0; i < info->column_count; i++) {
+		if (i > 0) series->line[length++] = ',';
+		length += (size_t)print_number(series->line + length, step->values[i], info->columns[i].is_count);
+	}
+	series->line[length++] = '\n';
+	if (series->pending + length > BUFFER_BYTES) JN_TRY(flush(series));
+	jn_text_write(&series->file, series->line, length);
+	series->pending += length;
+	return jn_host_clock() - series->flushed >= 1 ? flush(series) : JN_OK;
+}
+
+static JnStatus close_series(JnRecorder* recorder, const JnRecordEnd* end) {
+	Series* series = (Series*)recorder;
+	(void)end;
+	free(series->line);
+	if (!series->is_broken) return jn_text_close(&series->file);
+	jn_text_abandon(&series->file);
+	return JN_IO_FAILED;
+}
+
+const JnRecorderType jn_recorder_series = {
+	.name = "series",
+	.doc = "series.csv: one row a step",
+	.size = sizeof(Series),
+	.open = open_series,
+	.write = write_series,
+	.close = close_series,
+};

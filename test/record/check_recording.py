@@ -1,0 +1,44 @@
+"""Open a recording with the libraries that users open it with, and compare them with each other.
+
+usage: check_recording.py DIRECTORY CELL_TYPE...      exits with 77 when a module is missing
+"""
+import csv
+import json
+import sys
+
+try:
+	import h5py
+	import meshio
+	import numpy as np
+except ImportError as error:
+	print(error)
+	sys.exit(77)
+
+directory, cell_types = sys.argv[1], sys.argv[2:]
+
+with open(f"{directory}/summary.json", encoding="utf-8") as stream:
+	summary = json.load(stream)
+assert summary["outcome"] == "done", summary
+assert summary["message"] == 'tab\there, quote ", backslash \\', summary
+
+with h5py.File(f"{directory}/run.h5") as run:
+	assert run.attrs["outcome"] == "done"
+	assert run["scene"].asstr()[()] == "name: beam\n# --set dt=1e-3\n"
+	with open(f"{directory}/series.csv", newline="") as stream:
+		rows = list(csv.DictReader(stream))
+	assert set(rows[0]) == set(run["series"]), rows[0]
+	for name, values in run["series"].items():
+		assert [float(row[name]) for row in rows] == list(values), name
+
+	with meshio.xdmf.TimeSeriesReader(f"{directory}/run.xdmf") as reader:
+		points, cells = reader.read_points_cells()
+		assert [block.type for block in cells] == cell_types, cells
+		assert np.array_equal(points, run["frames/00000000/position"])
+		assert reader.num_steps == run["frames"].attrs["count"] == summary["frames"]
+		for k in range(reader.num_steps):
+			time, point_data, cell_data = reader.read_data(k)
+			frame = run[f"frames/{k:08d}"]
+			assert time == frame.attrs["time"]
+			assert np.array_equal(point_data["position"], frame["position"])
+			assert np.array_equal(point_data["velocity"], frame["velocity"])
+			assert [list(block) for block in cell_data["body"]] == [[i] for i in range(len(cells))]

@@ -1,0 +1,295 @@
+// run.h5, read back by HDF5 itself.
+#include "sample_run.h"
+
+#include <errno.h>
+#include <hdf5.h>
+#include <signal.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+
+static hid_t open_file(const Sample* sample) {
+	const hid_t file = H5Fopen(sample_path(sample, "run.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
+	assert_true(file >= 0);
+	return file;
+}
+
+// Read a dataset that must hold `count` numbers.
+static void read_numbers(hid_t file, const char* name, hid_t type, hssize_t count, void* out) {
+	const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+	assert_true(dataset >= 0);
+	const hid_t space = H5Dget_space(dataset);
+	assert_int_equal(H5Sget_simple_extent_npoints(space), count);
+	assert_true(H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out) >= 0);
+	H5Sclose(space);
+	H5Dclose(dataset);
+}
+
+static void read_attribute(hid_t file, const char* object, const char* name, hid_t type, void* out) {
+	const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT);
+	assert_true(attribute >= 0);
+	assert_true(H5Aread(attribute, type, out) >= 0);
+	H5Aclose(attribute);
+}
+
+static int64_t read_count(hid_t file, const char* object, const char* name) {
+	int64_t count = -1;
+	read_attribute(file, object, name, H5T_NATIVE_INT64, &count);
+	return count;
+}
+
+static void check_text(hid_t file, const char* object, const char* name, const char* expected) {
+	const hid_t type = H5Tcopy(H5T_C_S1);
+	H5Tset_size(type, H5T_VARIABLE);
+	H5Tset_cset(type, H5T_CSET_UTF8);
+	char* text = NULL;
+	read_attribute(file, object, name, type, &text);
+	assert_string_equal(text, expected);
+	H5free_memory(text);
+	H5Tclose(type);
+}
+
+static void check_frames(const Sample* sample, hid_t file, long count) {
+	assert_int_equal(read_count(file, "/frames", "count"), count);
+	for (long i = 0; i < count; i++) {
+		double x[3 * SAMPLE_NODES], v[3 * SAMPLE_NODES], read[3 * SAMPLE_NODES], values[SAMPLE_COLUMNS], time = NAN;
+		sample_state(i * SAMPLE_STEPS_A_FRAME, sample, x, v);
+		sample_values(i * SAMPLE_STEPS_A_FRAME, values);
+		char group[64], name[96];
+		snprintf(group, sizeof group, "/frames/%08ld", i);
+		snprintf(name, sizeof name, "%s/position", group);
+		read_numbers(file, name, H5T_NATIVE_DOUBLE, 3 * SAMPLE_NODES, read);
+		assert_memory_equal(read, x, sizeof x);
+		snprintf(name, sizeof name, "%s/velocity", group);
+		read_numbers(file, name, H5T_NATIVE_DOUBLE, 3 * SAMPLE_NODES, read);
+		assert_memory_equal(read, v, sizeof v);
+		read_attribute(file, group, "time", H5T_NATIVE_DOUBLE, &time);
+		assert_true(time == values[1]);
+		assert_int_equal(read_count(file, group, "step"), i * SAMPLE_STEPS_A_FRAME);
+	}
+}
+
+static void frames_read_back_bit_for_bit(void** state) {
+	Sample* sample = *state;
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	check_frames(sample, file, SAMPLE_FRAMES);
+	H5Fclose(file);
+}
+
+static void check_series(hid_t file, int steps) {
+	for (int column = 0; column < SAMPLE_COLUMNS; column++) {
+		char name[64];
+		snprintf(name, sizeof name, "/series/%s", sample_columns[column].name);
+		double* read = malloc((size_t)steps * sizeof *read);
+		read_numbers(file, name, H5T_NATIVE_DOUBLE, steps, read);
+		for (int k = 0; k < steps; k++) {
+			double values[SAMPLE_COLUMNS];
+			sample_values(k, values);
+			assert_memory_equal(&read[k], &values[column], sizeof(double));
+		}
+		free(read);
+		check_text(file, name, "unit", sample_columns[column].unit);
+	}
+}
+
+static void series_read_back_bit_for_bit(void** state) {
+	Sample* sample = *state;
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	check_series(file, SAMPLE_STEPS);
+	H5Fclose(file);
+}
+
+// 1100 steps: more than four buffers of 256 steps and more than one chunk of 1024.
+static void long_series_crosses_buffers_and_chunks(void** state) {
+	Sample* sample = *state;
+	assert_int_equal(sample_open(sample), JN_OK);
+	for (long k = 0; k < 1100; k++) assert_int_equal(sample_write(sample, k), JN_OK);
+	assert_int_equal(sample_close(sample), JN_OK);
+	const hid_t file = open_file(sample);
+	check_series(file, 1100);
+	H5Fclose(file);
+}
+
+static void counts_are_stored_as_integers(void** state) {
+	Sample* sample = *state;
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	const hid_t dataset = H5Dopen2(file, "/series/newton", H5P_DEFAULT);
+	const hid_t type = H5Dget_type(dataset);
+	assert_true(H5Tequal(type, H5T_STD_I64LE) > 0);
+	H5Tclose(type);
+	H5Dclose(dataset);
+	H5Fclose(file);
+}
+
+static void mesh_reads_back_with_its_bodies(void** state) {
+	Sample* sample = *state;
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	double nodes[3 * SAMPLE_NODES];
+	int cells[8], tetrahedron[4];
+	read_numbers(file, "/mesh/nodes", H5T_NATIVE_DOUBLE, 3 * SAMPLE_NODES, nodes);
+	assert_memory_equal(nodes, sample->nodes, sizeof nodes);
+	read_numbers(file, "/mesh/beam/cells", H5T_NATIVE_INT, 8, cells);
+	assert_memory_equal(cells, sample_hexahedron, sizeof cells);
+	read_numbers(file, "/mesh/wedge: \xC3\xA9/cells", H5T_NATIVE_INT, 4, tetrahedron);
+	assert_memory_equal(tetrahedron, sample_tetrahedron, sizeof tetrahedron);
+	check_text(file, "/mesh/beam/cells", "shape", "hex8");
+	assert_int_equal(read_count(file, "/mesh/beam/cells", "vtk_type"), 12);
+	assert_int_equal(read_count(file, "/mesh/wedge: \xC3\xA9/cells", "first_node"), 8);
+	assert_int_equal(read_count(file, "/mesh/wedge: \xC3\xA9/cells", "node_count"), 4);
+	H5Fclose(file);
+}
+
+// XDMF's numbers: a hexahedron is 9, a tetrahedron 6.
+static void mixed_topology_leads_each_cell_with_its_number(void** state) {
+	Sample* sample = *state;
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	const int expected[14] = {9, 0, 1, 3, 2, 4, 5, 7, 6, 6, 8, 9, 10, 11}, expected_bodies[2] = {0, 1};
+	int cells[14], bodies[2];
+	read_numbers(file, "/topology/cells", H5T_NATIVE_INT, 14, cells);
+	assert_memory_equal(cells, expected, sizeof cells);
+	read_numbers(file, "/topology/body", H5T_NATIVE_INT, 2, bodies);
+	assert_memory_equal(bodies, expected_bodies, sizeof bodies);
+	H5Fclose(file);
+}
+
+static void file_tells_its_origin_and_outcome(void** state) {
+	Sample* sample = *state;
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	check_text(file, "/", "jounce_version", JN_VERSION);
+	check_text(file, "/", "scene_name", "it's a \"beam\"");
+	check_text(file, "/", "method", "tr_bdf2");
+	check_text(file, "/", "blas", "OpenBLAS 0.3.21");
+	check_text(file, "/", "outcome", "done");
+	assert_int_equal(read_count(file, "/", "threads"), 2);
+	assert_int_equal(read_count(file, "/", "simd_width"), 4);
+	const hid_t scene = H5Dopen2(file, "/scene", H5P_DEFAULT);
+	const hid_t type = H5Dget_type(scene);
+	char* text = NULL;
+	assert_true(H5Dread(scene, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, &text) >= 0);
+	assert_string_equal(text, sample->info.scene_text);
+	H5free_memory(text);
+	H5Tclose(type);
+	H5Dclose(scene);
+	H5Fclose(file);
+}
+
+// Killed at step 12, the run has the frames of steps 0, 5 and 10.
+static void killed_run_leaves_its_frames_readable(void** state) {
+	Sample* sample = *state;
+	const pid_t child = fork();
+	if (child == 0) {
+		if (sample_open(sample) != JN_OK) _exit(1);
+		for (long k = 0; k <= 12; k++) {
+			if (sample_write(sample, k) != JN_OK) _exit(1);
+		}
+		raise(SIGKILL);
+	}
+	int outcome = 0;
+	assert_int_equal(waitpid(child, &outcome, 0), child);
+	assert_true(WIFSIGNALED(outcome) && WTERMSIG(outcome) == SIGKILL);
+	const hid_t file = open_file(sample);
+	check_frames(sample, file, 3);
+	check_text(file, "/", "outcome", "running");
+	H5Fclose(file);
+}
+
+// Another process opens the file while it is being written: no lock is in its way, and the frames are there.
+static void running_file_can_be_read_by_others(void** state) {
+	Sample* sample = *state;
+	int gate[2] = {0};
+	assert_int_equal(pipe(gate), 0);
+	const pid_t child = fork();
+	if (child == 0) {
+		char go = 0;
+		if (read(gate[0], &go, 1) != 1) _exit(2);
+		const hid_t file = H5Fopen(sample_path(sample, "run.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
+		_exit(file >= 0 && read_count(file, "/frames", "count") == 2 ? 0 : 1);
+	}
+	assert_int_equal(sample_open(sample), JN_OK);
+	for (long k = 0; k <= 5; k++) assert_int_equal(sample_write(sample, k), JN_OK);
+	assert_int_equal(write(gate[1], "g", 1), 1);
+	int outcome = 0;
+	assert_int_equal(waitpid(child, &outcome, 0), child);
+	close(gate[0]), close(gate[1]);
+	assert_int_equal(sample_close(sample), JN_OK);
+	assert_true(WIFEXITED(outcome));
+	assert_int_equal(WEXITSTATUS(outcome), 0);
+}
+
+// The disk has room for `budget` more bytes of run.h5; below 0 there is no end to it.
+static long budget = -1;
+
+// The recorder writes through this one instead of the C library's.
+ssize_t pwrite(int file, const void* data, size_t size, off_t offset) {
+	char link[64], path[256] = "";
+	snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+	const bool is_recording = readlink(link, path, sizeof path - 1) > 0 && strstr(path, "/run.h5") != NULL;
+	if (budget >= 0 && is_recording && strncmp(path, "/tmp/", 5) == 0) {
+		if (budget < (long)size) {
+			errno = ENOSPC;
+			return -1;
+		}
+		budget -= (long)size;
+	}
+	return syscall(SYS_pwrite64, file, data, size, offset);
+}
+
+static int run_until_full(Sample* sample, long room) {
+	budget = room;
+	JnStatus status = sample_open(sample);
+	for (long k = 0; k < 5000 && status == JN_OK; k++) status = sample_write(sample, k);
+	if (status != JN_IO_FAILED) return 2;
+	if (strstr(sample->messages, sample_path(sample, "run.h5: cannot write")) == NULL) return 3;
+	if (strstr(sample->messages, "No space left on device") == NULL) return 4;
+	const size_t told = strlen(sample->messages);
+	if (sample->recorders.count > 0 && sample_close(sample) != JN_IO_FAILED) return 5;
+	return strstr(sample->messages + told, "run.h5") == NULL ? 0 : 6; // told once
+}
+
+// In a child, since HDF5's handler at exit must get through, too.
+static void full_disk_ends_the_run_with_path_and_reason(void** state) {
+	Sample* sample = *state;
+	for (long room = 1000; room < 1000000; room *= 3) {
+		const pid_t child = fork();
+		if (child == 0) {
+			const int failure = run_until_full(sample, room);
+			if (failure != 0) print_message("room %ld: %s", room, sample->messages);
+			jn_arena_free(&sample->arena);
+			exit(failure);
+		}
+		int outcome = 0;
+		assert_int_equal(waitpid(child, &outcome, 0), child);
+		assert_true(WIFEXITED(outcome));
+		assert_int_equal(WEXITSTATUS(outcome), 0);
+	}
+}
+
+static void run_after_a_full_disk_is_recorded(void** state) {
+	Sample* sample = *state;
+	assert_int_equal(run_until_full(sample, 50000), 0);
+	budget = -1;
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	check_frames(sample, file, SAMPLE_FRAMES);
+	check_series(file, SAMPLE_STEPS);
+	H5Fclose(file);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, sample_setup, sample_teardown)
+
+int main(void) {
+	const struct CMUnitTest tests[] = {
+		TEST(frames_read_back_bit_for_bit),           TEST(series_read_back_bit_for_bit),
+		TEST(long_series_crosses_buffers_and_chunks), TEST(counts_are_stored_as_integers),
+		TEST(mesh_reads_back_with_its_bodies),        TEST(mixed_topology_leads_each_cell_with_its_number),
+		TEST(file_tells_its_origin_and_outcome),      TEST(killed_run_leaves_its_frames_readable),
+		TEST(running_file_can_be_read_by_others),     TEST(full_disk_ends_the_run_with_path_and_reason),
+		TEST(run_after_a_full_disk_is_recorded),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,143 @@
+// What the recorders refuse, and that every failure names its file.
+#include "sample_run.h"
+
+static void check_message(const Sample* sample, const char* words) {
+	if (strstr(sample->messages, words) == NULL) fail_msg("\"%s\" is not in \"%s\"", words, sample->messages);
+}
+
+static void missing_directory_is_named(void** state) {
+	Sample* sample = *state;
+	char directory[128];
+	snprintf(directory, sizeof directory, "%s/absent", sample->directory);
+	sample->info.directory = directory;
+	assert_int_equal(sample_open(sample), JN_IO_FAILED);
+	check_message(sample, "/absent/run.h5");
+	check_message(sample, "No such file or directory");
+	assert_int_equal(sample->recorders.count, 0);
+}
+
+// Nothing can be created below /proc, not even by root.
+static void unwritable_directory_is_named(void** state) {
+	Sample* sample = *state;
+	sample->info.directory = "/proc/self";
+	assert_int_equal(sample_open(sample), JN_IO_FAILED);
+	check_message(sample, "/proc/self/run.h5");
+}
+
+// series.csv comes third: hdf5 and xdmf are open by then and have to be closed.
+static void failed_open_closes_those_before(void** state) {
+	Sample* sample = *state;
+	assert_int_equal(symlink("/dev/full", sample_path(sample, "series.csv")), 0);
+	assert_int_equal(sample_open(sample), JN_IO_FAILED);
+	check_message(sample, "series.csv");
+	check_message(sample, "No space left on device");
+	assert_int_equal(sample->recorders.count, 0);
+	assert_int_equal(access(sample_path(sample, "run.h5"), R_OK), 0);
+	char* xml = sample_read(sample, "run.xdmf");
+	assert_non_null(strstr(xml, "</Xdmf>\n"));
+	free(xml);
+}
+
+// The file that takes the place of each output while it is written is full; the others must be closed all the same.
+static void check_full(Sample* sample, const char* link, const char* named) {
+	assert_int_equal(symlink("/dev/full", sample_path(sample, link)), 0);
+	JnStatus status = sample_open(sample);
+	for (long k = 0; k < SAMPLE_STEPS && status == JN_OK; k++) status = sample_write(sample, k);
+	const JnStatus closed = sample_close(sample);
+	assert_int_equal(status != JN_OK ? status : closed, JN_IO_FAILED);
+	check_message(sample, named);
+}
+
+static void full_disk_under_hdf5_is_told(void** state) {
+	check_full(*state, "run.h5", "run.h5");
+}
+
+static void full_disk_under_xdmf_is_told(void** state) {
+	check_full(*state, "run.xdmf.tmp", "run.xdmf");
+}
+
+static void full_disk_under_summary_is_told(void** state) {
+	Sample* sample = *state;
+	check_full(sample, "summary.json.tmp", "summary.json");
+	check_message(sample, "No space left on device");
+	assert_int_not_equal(access(sample_path(sample, "summary.json"), F_OK), 0);
+	char* csv = sample_read(sample, "series.csv");
+	assert_non_null(strstr(csv, "\n20,"));
+	free(csv);
+}
+
+// Bad numbers of step 1 must leave the files as step 0 left them.
+static void check_refused(Sample* sample, double* values, double* x, double* v, const char* named) {
+	assert_int_equal(sample_open(sample), JN_OK);
+	assert_int_equal(sample_write(sample, 0), JN_OK);
+	const JnRecordStep step = {.step = 1, .t = 0.1, .is_frame = true, .x = x, .v = v, .values = values};
+	assert_int_equal(jn_recorders_write(&sample->recorders, &step), JN_NOT_FINITE);
+	check_message(sample, named);
+	assert_int_equal(sample_close(sample), JN_OK);
+	char* csv = sample_read(sample, "series.csv");
+	assert_null(strstr(csv, "nan"));
+	assert_null(strstr(csv, "\n1,"));
+	free(csv);
+	char* xml = sample_read(sample, "run.xdmf");
+	assert_null(strstr(xml, "frame 1"));
+	free(xml);
+}
+
+static void nan_in_a_column_is_refused_by_name(void** state) {
+	double values[SAMPLE_COLUMNS], x[3 * SAMPLE_NODES] = {0}, v[3 * SAMPLE_NODES] = {0};
+	sample_values(1, values);
+	values[4] = NAN;
+	check_refused(*state, values, x, v, "total");
+}
+
+static void nan_in_a_position_is_refused_by_node(void** state) {
+	double values[SAMPLE_COLUMNS], x[3 * SAMPLE_NODES] = {0}, v[3 * SAMPLE_NODES] = {0};
+	sample_values(1, values);
+	x[3 * 7 + 1] = NAN;
+	check_refused(*state, values, x, v, "position of node 7 is nan m along y");
+}
+
+static void infinite_velocity_is_refused_by_node(void** state) {
+	double values[SAMPLE_COLUMNS], x[3 * SAMPLE_NODES] = {0}, v[3 * SAMPLE_NODES] = {0};
+	sample_values(1, values);
+	v[3 * 11 + 2] = INFINITY;
+	check_refused(*state, values, x, v, "velocity of node 11 is inf m/s along z");
+}
+
+static void body_called_nodes_is_refused(void** state) {
+	Sample* sample = *state;
+	sample->bodies[0].name = "nodes";
+	assert_int_equal(sample_open(sample), JN_BAD_INPUT);
+	check_message(sample, "\"nodes\"");
+	assert_int_not_equal(access(sample_path(sample, "run.h5"), F_OK), 0);
+}
+
+static void column_with_a_comma_is_refused(void** state) {
+	Sample* sample = *state;
+	const JnColumn column = {"probe.a,b.x", "m", false};
+	sample->info.columns = &column;
+	sample->info.column_count = 1;
+	assert_int_equal(sample_open(sample), JN_BAD_INPUT);
+	check_message(sample, "probe.a,b.x");
+}
+
+static void second_close_does_nothing(void** state) {
+	Sample* sample = *state;
+	sample_record(sample);
+	assert_int_equal(sample_close(sample), JN_OK);
+	assert_string_equal(sample->messages, "");
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, sample_setup, sample_teardown)
+
+int main(void) {
+	const struct CMUnitTest tests[] = {
+		TEST(missing_directory_is_named),           TEST(unwritable_directory_is_named),
+		TEST(failed_open_closes_those_before),      TEST(full_disk_under_hdf5_is_told),
+		TEST(full_disk_under_xdmf_is_told),         TEST(full_disk_under_summary_is_told),
+		TEST(nan_in_a_column_is_refused_by_name),   TEST(nan_in_a_position_is_refused_by_node),
+		TEST(infinite_velocity_is_refused_by_node), TEST(body_called_nodes_is_refused),
+		TEST(column_with_a_comma_is_refused),       TEST(second_close_does_nothing),
+	};
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
