@@ -1,0 +1,250 @@
+#include "model/assembly.h"
+
+#include <string.h>
+
+#include "base/parallel.h"
+
+// Elements in a chunk: small enough that its forces or blocks stay in the cache between kernel and scatter, and a
+// multiple of every batch width, so that chunks do not depend on it.
+enum { FORCE_CHUNK = 64, TANGENT_CHUNK = 16, MOST_BLOCK_PAIRS = 55, MOST_NODES = 10 };
+
+// Elements that make another thread worth waking: a fork costs 50 to 100 us, a force 0.1 us, a tangent 1 us an element.
+enum { FORCE_GRAIN = 2048, TANGENT_GRAIN = 256 };
+
+typedef struct BodyMap {
+	int pairs;  // local node pairs (i, j <= i)
+	int* block; // [batches][pairs][W]: block of the pattern, ~block when transposed
+	int* low;   // [batches]: lowest and highest node of a batch
+	int* high;
+} BodyMap;
+
+struct JnAssembly {
+	const JnModel* model;
+	int elements;
+	BodyMap* maps;    // one a body
+	double** buffers; // one a thread, of a tangent chunk
+	double* chunk_energy;
+};
+
+typedef struct Range {
+	int low, high; // nodes low <= node < high
+} Range;
+
+static int batches_in(int elements, const JnGroup* group) {
+	return elements / group->kernel->width;
+}
+
+static int lanes_in(const JnGroup* group, int batch) {
+	const int rest = group->count - batch * group->kernel->width;
+	return rest < group->kernel->width ? rest : group->kernel->width;
+}
+
+static int node_at(const JnGroup* group, int batch, int i, int lane) {
+	const JnKernel* kernel = group->kernel;
+	return group->nodes[((size_t)batch * (size_t)kernel->nodes + (size_t)i) * (size_t)kernel->width + (size_t)lane];
+}
+
+static void map_batch(const JnPattern* pattern, const JnGroup* group, int batch, BodyMap* map) {
+	const int width = group->kernel->width;
+	int low = pattern->nodes, high = -1;
+	for (int lane = 0; lane < width; ++lane) {
+		int* block = map->block + (size_t)batch * (size_t)map->pairs * (size_t)width + lane;
+		for (int i = 0; i < group->kernel->nodes; ++i) {
+			const int row = node_at(group, batch, i, lane);
+			low = row < low ? row : low;
+			high = row > high ? row : high;
+			for (int j = 0; j <= i; ++j, block += width) {
+				const int column = node_at(group, batch, j, lane);
+				*block = row >= column ? jn_pattern_find(pattern, row, column) : ~jn_pattern_find(pattern, column, row);
+			}
+		}
+	}
+	map->low[batch] = low;
+	map->high[batch] = high;
+}
+
+static JnStatus map_body(JnModel* model, const JnGroup* group, BodyMap* map) {
+	const int nodes = group->kernel->nodes;
+	map->pairs = nodes * (nodes + 1) / 2;
+	JN_NEW(&model->arena, map->block, (size_t)group->batches * (size_t)map->pairs * (size_t)group->kernel->width);
+	JN_NEW(&model->arena, map->low, group->batches);
+	JN_NEW(&model->arena, map->high, group->batches);
+	for (int batch = 0; batch < group->batches; ++batch) map_batch(&model->pattern, group, batch, map);
+	return JN_OK;
+}
+
+JnStatus jn_assembly_create(JnModel* model, JnAssembly** out) {
+	JnAssembly* assembly;
+	JN_NEW(&model->arena, assembly, 1);
+	assembly->model = model;
+	JN_NEW(&model->arena, assembly->maps, model->body_count);
+	size_t chunks = 0;
+	for (int b = 0; b < model->body_count; ++b) {
+		JN_TRY(map_body(model, &model->bodies[b].group, &assembly->maps[b]));
+		assembly->elements += model->bodies[b].group.count;
+		chunks += (size_t)model->bodies[b].group.count / FORCE_CHUNK + 1;
+	}
+	JN_NEW(&model->arena, assembly->chunk_energy, chunks);
+	JN_NEW(&model->arena, assembly->buffers, model->threads);
+	for (int t = 0; t < model->threads; ++t)
+		JN_NEW(&model->arena, assembly->buffers[t], TANGENT_CHUNK * MOST_BLOCK_PAIRS * 9);
+	*out = assembly;
+	return JN_OK;
+}
+
+static bool touches(const BodyMap* map, int first, int last, Range range) {
+	for (int batch = first; batch < last; ++batch)
+		if (map->low[batch] < range.high && map->high[batch] >= range.low) return true;
+	return false;
+}
+
+static void scatter_force(const JnGroup* group, int batch, const double* element, Range range, double* f) {
+	const int width = group->kernel->width, lanes = lanes_in(group, batch);
+	for (int lane = 0; lane < lanes; ++lane)
+		for (int i = 0; i < group->kernel->nodes; ++i) {
+			const int node = node_at(group, batch, i, lane);
+			if (node < range.low || node >= range.high) continue;
+			const double* from = element + 3 * i * width + lane;
+			double* to = f + 3 * (size_t)node;
+			to[0] += from[0];
+			to[1] += from[width];
+			to[2] += from[2 * width];
+		}
+}
+
+static void add_forces(const JnAssembly* assembly, const double* x, Range range, double* buffer, double* f) {
+	for (int b = 0; b < assembly->model->body_count; ++b) {
+		const JnGroup* group = &assembly->model->bodies[b].group;
+		const int step = batches_in(FORCE_CHUNK, group), stride = 3 * group->kernel->nodes * group->kernel->width;
+		for (int first = 0; first < group->batches; first += step) {
+			const int last = first + step < group->batches ? first + step : group->batches;
+			if (!touches(&assembly->maps[b], first, last, range)) continue;
+			group->kernel->force(group, first, last, x, buffer);
+			for (int batch = first; batch < last; ++batch)
+				scatter_force(group, batch, buffer + (batch - first) * stride, range, f);
+		}
+	}
+}
+
+// The nodes of thread `t` of `team`.
+static Range range_of(const JnAssembly* assembly, int t, int team) {
+	const long nodes = assembly->model->node_count;
+	return (Range){.low = (int)(nodes * t / team), .high = (int)(nodes * (t + 1) / team)};
+}
+
+void jn_assembly_force(JnAssembly* assembly, const double* x, double* f) {
+	const int team = jn_threads_for((size_t)assembly->elements, FORCE_GRAIN, assembly->model->threads);
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
+	for (int t = 0; t < team; ++t) add_forces(assembly, x, range_of(assembly, t, team), assembly->buffers[t], f);
+}
+
+static void add_block(double* to, const double* from, int width, double weight) {
+	for (int k = 0; k < 9; ++k) to[k] += weight * from[k * width];
+}
+
+static void add_transposed(double* to, const double* from, int width, double weight) {
+	for (int r = 0; r < 3; ++r)
+		for (int c = 0; c < 3; ++c) to[3 * r + c] += weight * from[(3 * c + r) * width];
+}
+
+typedef struct Target {
+	Range range;
+	double weight;
+	double* blocks;
+} Target;
+
+static void scatter_tangent(const JnGroup* group, const BodyMap* map, int batch, const double* element, Target target) {
+	const int width = group->kernel->width, lanes = lanes_in(group, batch);
+	const int* block = map->block + (size_t)batch * (size_t)map->pairs * (size_t)width;
+	for (int lane = 0; lane < lanes; ++lane)
+		for (int i = 0, pair = 0; i < group->kernel->nodes; ++i)
+			for (int j = 0; j <= i; ++j, ++pair) {
+				const int row = node_at(group, batch, i, lane), column = node_at(group, batch, j, lane);
+				const int owner = row < column ? row : column;
+				if (owner < target.range.low || owner >= target.range.high) continue;
+				const int place = block[pair * width + lane];
+				const double* from = element + 9 * pair * width + lane;
+				if (place >= 0)
+					add_block(target.blocks + 9 * (size_t)place, from, width, target.weight);
+				else
+					add_transposed(target.blocks + 9 * (size_t)~place, from, width, target.weight);
+			}
+}
+
+static void add_tangents(const JnAssembly* assembly, const double* x, JnDefinite definite, const double* weight,
+						 double* buffer, Target target) {
+	for (int b = 0; b < assembly->model->body_count; ++b) {
+		const JnGroup* group = &assembly->model->bodies[b].group;
+		const BodyMap* map = &assembly->maps[b];
+		target.weight = weight != NULL ? weight[b] : 1;
+		if (target.weight == 0) continue;
+		const int step = batches_in(TANGENT_CHUNK, group), stride = 9 * map->pairs * group->kernel->width;
+		for (int first = 0; first < group->batches; first += step) {
+			const int last = first + step < group->batches ? first + step : group->batches;
+			if (!touches(map, first, last, target.range)) continue;
+			group->kernel->tangent(group, first, last, x, definite == JN_DEFINITE, buffer);
+			for (int batch = first; batch < last; ++batch)
+				scatter_tangent(group, map, batch, buffer + (batch - first) * stride, target);
+		}
+	}
+}
+
+static void clear_columns(const JnPattern* pattern, Range range, double* blocks) {
+	const size_t first = 9 * (size_t)pattern->column_start[range.low],
+				 last = 9 * (size_t)pattern->column_start[range.high];
+	memset(blocks + first, 0, (last - first) * sizeof *blocks);
+}
+
+void jn_assembly_tangent(JnAssembly* assembly, const double* x, JnDefinite definite, const double* weight,
+						 double* blocks) {
+	const int team = jn_threads_for((size_t)assembly->elements, TANGENT_GRAIN, assembly->model->threads);
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
+	for (int t = 0; t < team; ++t) {
+		const Target target = {.range = range_of(assembly, t, team), .blocks = blocks};
+		clear_columns(&assembly->model->pattern, target.range, blocks);
+		add_tangents(assembly, x, definite, weight, assembly->buffers[t], target);
+	}
+}
+
+// Sum of a chunk in element order, whatever the batch width.
+static double chunk_sum(const JnGroup* group, int first, int last, const double* energy) {
+	double sum = 0;
+	for (int batch = first; batch < last; ++batch)
+		for (int lane = 0; lane < lanes_in(group, batch); ++lane)
+			sum += energy[(batch - first) * group->kernel->width + lane];
+	return sum;
+}
+
+static double body_energy(JnAssembly* assembly, const JnGroup* group, const double* x) {
+	const int step = batches_in(FORCE_CHUNK, group);
+	const int chunks = (group->batches + step - 1) / step;
+	const int team = jn_threads_for((size_t)group->count, FORCE_GRAIN, assembly->model->threads);
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
+	for (int c = 0; c < chunks; ++c) {
+		const int first = c * step, last = first + step < group->batches ? first + step : group->batches;
+		double* buffer = assembly->buffers[jn_thread_number()];
+		group->kernel->energy(group, first, last, x, buffer);
+		assembly->chunk_energy[c] = chunk_sum(group, first, last, buffer);
+	}
+	double sum = 0;
+	for (int c = 0; c < chunks; ++c) sum += assembly->chunk_energy[c];
+	return sum;
+}
+
+double jn_assembly_energy(JnAssembly* assembly, const double* x) {
+	double sum = 0;
+	for (int b = 0; b < assembly->model->body_count; ++b)
+		sum += body_energy(assembly, &assembly->model->bodies[b].group, x);
+	return sum;
+}
+
+bool jn_assembly_freeze(JnAssembly* assembly, const double* x) {
+	bool froze = false;
+	for (int b = 0; b < assembly->model->body_count; ++b) {
+		JnGroup* group = &assembly->model->bodies[b].group;
+		if (group->kernel->freeze == NULL) continue;
+		group->kernel->freeze(group, 0, group->batches, x);
+		froze = true;
+	}
+	return froze;
+}

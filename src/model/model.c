@@ -1,0 +1,244 @@
+// From definitions to a model: meshes, numbering, constraints, elements, pattern, mass, system.
+#include "model/model.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/log.h"
+#include "mesh/generate.h"
+#include "model/mass.h"
+#include "model/select.h"
+#include "model/system.h"
+
+// What the axes of a node do while constraints are collected: 0 free, 1 held at rest, 2 + i driven by motions[i].
+typedef struct Axes {
+	int* use;                  // 3 * node_count
+	const JnVariant** motions; // those met so far
+	int motion_count;
+} Axes;
+
+static JnStatus mesh_body(const JnBodyDef* def, int index, JnModel* model) {
+	JnBody* body = &model->bodies[index];
+	*body =
+		(JnBody){.name = def->name, .damping = def->damping, .mass_form = def->mass, .first_node = model->node_count};
+	memcpy(body->velocity, def->velocity, sizeof body->velocity);
+	const JnShapeType* shape = (const JnShapeType*)def->shape.row;
+	JN_TRY(shape->generate(def->shape.options, &model->arena, &body->mesh));
+	if (body->mesh.cell_count == 0 || body->mesh.node_count == 0)
+		return jn_error(JN_BAD_INPUT, "bodies[%d] '%s': its mesh has no cells", index, def->name);
+	const size_t entries = (size_t)body->mesh.cell_count * (size_t)jn_shape_info[body->mesh.shape].nodes;
+	JN_NEW(&model->arena, body->cells, entries);
+	for (size_t k = 0; k < entries; ++k) body->cells[k] = body->mesh.cells[k] + body->first_node;
+	model->node_count += body->mesh.node_count;
+	return JN_OK;
+}
+
+static JnStatus check_names(const JnItems* bodies) {
+	const JnBodyDef* defs = bodies->data;
+	for (int i = 0; i < bodies->count; ++i)
+		for (int j = 0; j < i; ++j)
+			if (strcmp(defs[i].name, defs[j].name) == 0)
+				return jn_error(JN_BAD_INPUT, "bodies[%d].name: '%s' is the name of bodies[%d] already; use another", i,
+								defs[i].name, j);
+	return JN_OK;
+}
+
+static JnStatus build_meshes(const JnItems* defs, JnModel* model) {
+	JN_TRY(check_names(defs));
+	model->body_count = defs->count;
+	JN_NEW(&model->arena, model->bodies, defs->count);
+	for (int b = 0; b < defs->count; ++b) JN_TRY(mesh_body((const JnBodyDef*)defs->data + b, b, model));
+	JN_NEW(&model->arena, model->rest, 3 * (size_t)model->node_count);
+	for (int b = 0; b < defs->count; ++b) {
+		const JnBody* body = &model->bodies[b];
+		memcpy(model->rest + 3 * (size_t)body->first_node, body->mesh.nodes,
+			   3 * (size_t)body->mesh.node_count * sizeof *model->rest);
+	}
+	return JN_OK;
+}
+
+static JnStatus axes_mask(const char* axes, const char* what, bool mask[3]) {
+	for (const char* c = axes; *c != '\0'; ++c) {
+		if (*c < 'x' || *c > 'z')
+			return jn_error(JN_BAD_INPUT, "%s.axes: '%s' has a letter other than x, y, z", what, axes);
+		mask[*c - 'x'] = true;
+	}
+	return *axes != '\0' ? JN_OK : jn_error(JN_BAD_INPUT, "%s.axes: empty; name at least one of x, y, z", what);
+}
+
+static void use_axis(Axes* axes, const JnBody* body, const bool* chosen, int axis, int use) {
+	for (int i = 0; i < body->mesh.node_count; ++i)
+		if (chosen[i]) axes->use[3 * (body->first_node + i) + axis] = use;
+}
+
+static JnStatus fix_nodes(const JnFixDef* def, const char* what, const JnBody* body, bool* chosen, Axes* axes) {
+	char where[128];
+	bool mask[3] = {false, false, false};
+	snprintf(where, sizeof where, "%s.where", what);
+	JN_TRY(jn_select_nodes(&def->where, &body->mesh, where, chosen));
+	JN_TRY(axes_mask(def->axes, what, mask));
+	for (int axis = 0; axis < 3; ++axis)
+		if (mask[axis]) use_axis(axes, body, chosen, axis, 1);
+	return JN_OK;
+}
+
+static JnStatus drive_nodes(const JnDriveDef* def, const char* what, const JnBody* body, bool* chosen, Axes* axes) {
+	char where[128];
+	snprintf(where, sizeof where, "%s.where", what);
+	JN_TRY(jn_select_nodes(&def->where, &body->mesh, where, chosen));
+	int driven = 0;
+	for (int axis = 0; axis < 3; ++axis) {
+		const JnMotionType* type = (const JnMotionType*)def->motion[axis].row;
+		if (type == NULL) {
+			if (def->others == 0) use_axis(axes, body, chosen, axis, 1);
+			continue;
+		}
+		if (type->check != NULL) JN_TRY(type->check(def->motion[axis].options));
+		axes->motions[axes->motion_count] = &def->motion[axis];
+		use_axis(axes, body, chosen, axis, 2 + axes->motion_count++);
+		++driven;
+	}
+	return driven > 0 ? JN_OK : jn_error(JN_BAD_INPUT, "%s: no motion; give x, y or z, or use fix", what);
+}
+
+static JnStatus constrain_body(const JnBodyDef* def, int index, const JnBody* body, JnArena* scratch, Axes* axes) {
+	bool* chosen;
+	char what[96];
+	JN_NEW(scratch, chosen, body->mesh.node_count);
+	for (int i = 0; i < def->fix.count; ++i) {
+		snprintf(what, sizeof what, "bodies[%d].fix[%d]", index, i);
+		JN_TRY(fix_nodes((const JnFixDef*)def->fix.data + i, what, body, chosen, axes));
+	}
+	for (int i = 0; i < def->drive.count; ++i) {
+		snprintf(what, sizeof what, "bodies[%d].drive[%d]", index, i);
+		JN_TRY(drive_nodes((const JnDriveDef*)def->drive.data + i, what, body, chosen, axes));
+	}
+	return JN_OK;
+}
+
+static JnStatus list_held(const Axes* axes, JnModel* model) {
+	const int entries = 3 * model->node_count;
+	for (int k = 0; k < entries; ++k) model->held_count += axes->use[k] != 0;
+	if (model->held_count == entries)
+		return jn_error(JN_BAD_INPUT, "bodies: no free node is left; all %d are fixed or driven, so nothing can move",
+						model->node_count);
+	JN_NEW(&model->arena, model->held, entries);
+	JN_NEW(&model->arena, model->held_list, model->held_count + 1);
+	JnVariant* motions;
+	JN_NEW(&model->arena, motions, axes->motion_count + 1);
+	for (int i = 0; i < axes->motion_count; ++i) motions[i] = *axes->motions[i];
+	int place = 0;
+	for (int k = 0; k < entries; ++k) {
+		if (axes->use[k] == 0) continue;
+		model->held[k] = true;
+		model->held_list[place++] =
+			(JnHeld){.entry = k, .motion = axes->use[k] >= 2 ? &motions[axes->use[k] - 2] : NULL};
+	}
+	return JN_OK;
+}
+
+static JnStatus constrain(const JnItems* defs, JnModel* model, JnArena* scratch) {
+	Axes axes = {0};
+	int drives = 0;
+	for (int b = 0; b < defs->count; ++b) drives += ((const JnBodyDef*)defs->data)[b].drive.count;
+	JN_NEW(scratch, axes.use, 3 * (size_t)model->node_count);
+	JN_NEW(scratch, axes.motions, 3 * drives + 1);
+	for (int b = 0; b < defs->count; ++b)
+		JN_TRY(constrain_body((const JnBodyDef*)defs->data + b, b, &model->bodies[b], scratch, &axes));
+	return list_held(&axes, model);
+}
+
+static JnStatus build_elements(const JnItems* defs, JnModel* model) {
+	for (int b = 0; b < defs->count; ++b) {
+		const JnBodyDef* def = (const JnBodyDef*)defs->data + b;
+		JnBody* body = &model->bodies[b];
+		const JnKernel* kernel = jn_kernel_find(body->mesh.shape, (const JnLaw*)def->material.row, 0);
+		if (kernel == NULL)
+			return jn_error(JN_BAD_INPUT, "bodies[%d].material.law: '%s' does not run on %s elements", b,
+							def->material.row->name, jn_shape_info[body->mesh.shape].name);
+		JN_TRY(
+			jn_group_create(kernel, &body->mesh, body->first_node, def->material.options, &model->arena, &body->group));
+		body->group.alpha = def->damping.alpha;
+		body->group.beta = def->damping.beta;
+	}
+	return JN_OK;
+}
+
+static JnStatus build_pattern(JnModel* model, JnArena* scratch) {
+	JnCellList* lists;
+	JN_NEW(scratch, lists, model->body_count);
+	for (int b = 0; b < model->body_count; ++b) {
+		const JnBody* body = &model->bodies[b];
+		lists[b] = (JnCellList){
+			.count = body->mesh.cell_count, .nodes = jn_shape_info[body->mesh.shape].nodes, .cells = body->cells};
+	}
+	return jn_pattern_create(model->node_count, model->body_count, lists, &model->arena, &model->pattern);
+}
+
+static JnStatus build(const JnModelDef* def, JnModel* model, JnArena* scratch) {
+	if (def->bodies.count == 0) return jn_error(JN_BAD_INPUT, "bodies: there are none; a scene needs at least one");
+	memcpy(model->gravity, def->gravity, sizeof model->gravity);
+	JN_TRY(build_meshes(&def->bodies, model));
+	JN_TRY(constrain(&def->bodies, model, scratch));
+	JN_TRY(build_elements(&def->bodies, model));
+	JN_TRY(build_pattern(model, scratch));
+	JN_TRY(jn_mass_build(model));
+	return jn_model_system_create(model, &def->solver);
+}
+
+JnStatus jn_model_create(const JnModelDef* def, int threads, JnModel** out) {
+	*out = NULL;
+	JnModel* model = calloc(1, sizeof *model);
+	if (model == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: model");
+	model->threads = threads > 0 ? threads : 1;
+	JnArena scratch = {0};
+	const JnStatus status = build(def, model, &scratch);
+	jn_arena_free(&scratch);
+	if (status == JN_OK)
+		*out = model;
+	else
+		jn_model_destroy(model);
+	return status;
+}
+
+void jn_model_destroy(JnModel* model) {
+	if (model == NULL) return;
+	jn_model_system_destroy(model);
+	jn_arena_free(&model->arena);
+	free(model);
+}
+
+int jn_model_node_count(const JnModel* model) {
+	return model->node_count;
+}
+
+double jn_model_mass(const JnModel* model) {
+	return model->total_mass;
+}
+
+const double* jn_model_rest(const JnModel* model) {
+	return model->rest;
+}
+
+int jn_model_nearest(const JnModel* model, const double point[3]) {
+	return jn_select_nearest(model->rest, model->node_count, point);
+}
+
+JnSystem* jn_model_system(JnModel* model) {
+	return model->system;
+}
+
+void jn_model_start(JnModel* model, double t, JnState* state) {
+	for (int b = 0; b < model->body_count; ++b) {
+		const JnBody* body = &model->bodies[b];
+		for (int k = 3 * body->first_node; k < 3 * (body->first_node + body->mesh.node_count); ++k) {
+			state->x[k] = model->rest[k];
+			state->v[k] = body->velocity[k % 3];
+		}
+	}
+	state->t = t;
+	model->system->ops->prescribe(model->system, state, NULL);
+	jn_state_touch(model->system->space, state);
+}

@@ -1,0 +1,50 @@
+/// @file model.h
+/// The model as built: nodes, bodies, mass, constraints. Constant after jn_model_create.
+#ifndef JN_MODEL_MODEL_H
+#define JN_MODEL_MODEL_H
+
+#include "force/kernel.h"
+#include "jounce/model.h"
+#include "math/pattern.h"
+#include "model/motion.h"
+#include "solve/solver.h"
+
+typedef struct JnBody {
+	const char* name;
+	JnMesh mesh;    ///< cells with node numbers of their own, from 0
+	int first_node; ///< number of the body's node 0 in the model
+	int* cells;     ///< the same cells with the model's node numbers
+	JnGroup group;
+	JnDampingDef damping;
+	int mass_form; ///< 0 consistent, 1 lumped
+	double velocity[3];
+} JnBody;
+
+/// One coordinate that does not follow the equations of motion.
+typedef struct JnHeld {
+	int entry;               ///< 3 * node + axis
+	const JnVariant* motion; ///< NULL: stays at rest
+} JnHeld;
+
+struct JnModel {
+	JnArena arena; ///< everything below
+	int threads;
+	int node_count;
+	double* rest; ///< 3 * node_count [m]
+	int body_count;
+	JnBody* bodies;
+	double gravity[3];
+	bool* held; ///< 3 * node_count
+	int held_count;
+	JnHeld* held_list; ///< ascending entries
+	JnPattern pattern;
+	double* mass;       ///< one number a block of the pattern [kg]
+	double* nodal_mass; ///< row sums of `mass`, node_count [kg]
+	bool mass_is_diagonal;
+	double* alpha_mass; ///< sum of alpha M over bodies, one number a block [kg/s]; NULL when no body has alpha
+	bool has_beta;      ///< some body has stiffness damping
+	double total_mass;  ///< [kg]
+	JnSystem* system;
+};
+
+#endif

@@ -1,0 +1,232 @@
+// The verbs of a model. Stamps tell what is already known: internal forces and K are made once a state.
+#include "model/system.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/log.h"
+#include "base/space.h"
+
+static JnModelSystem* of(JnSystem* sys) {
+	return (JnModelSystem*)sys;
+}
+
+static void make_damping(JnModelSystem* sys, const double* x, uint64_t stamp) {
+	jn_assembly_tangent(sys->assembly, x, JN_DEFINITE, sys->beta, sys->damping);
+	sys->damping_stamp = stamp;
+	++sys->base.report->tangents;
+	jn_model_matrix_expire(sys);
+}
+
+static void update_internal(JnModelSystem* sys, const JnState* s) {
+	if (sys->internal_stamp == s->stamp) return;
+	memset(sys->internal, 0, sys->base.space->length * sizeof *sys->internal);
+	jn_assembly_force(sys->assembly, s->x, sys->internal);
+	sys->internal_stamp = s->stamp;
+	++sys->base.report->forces;
+}
+
+// Typical forces: the weight, or what acts inside, or (at rest without weight) those of a strain of 1e-6.
+static double typical_force(JnModelSystem* sys) {
+	JnSpace* space = sys->base.space;
+	const double weight = sqrt(space->ops->dot(space, sys->external, sys->external));
+	const double inside = sqrt(space->ops->dot(space, sys->internal, sys->internal));
+	return fmax(fmax(weight, inside), 1e-6 / DBL_EPSILON * sys->base.force_floor);
+}
+
+static JnStatus begin(JnSystem* base, const JnState* start) {
+	JnModelSystem* sys = of(base);
+	if (jn_assembly_freeze(sys->assembly, start->x)) {
+		sys->internal_stamp = 0;
+		sys->stiffness_stamp = 0;
+	}
+	const bool must_update = sys->damping != NULL && (sys->damping_stamp == 0 || !sys->damping_at_rest);
+	if (must_update && sys->damping_stamp != start->stamp)
+		make_damping(sys, sys->damping_at_rest ? sys->model->rest : start->x, start->stamp);
+	update_internal(sys, start);
+	base->force_scale = typical_force(sys);
+	return JN_OK;
+}
+
+static void prescribe(JnSystem* base, JnState* s, JnVec a) {
+	const JnModel* model = of(base)->model;
+	for (int i = 0; i < model->held_count; ++i) {
+		const JnHeld* held = &model->held_list[i];
+		JnMotionValue value = {0};
+		if (held->motion != NULL) value = ((const JnMotionType*)held->motion->row)->at(held->motion->options, s->t);
+		s->x[held->entry] = model->rest[held->entry] + value.x;
+		s->v[held->entry] = value.v;
+		if (a != NULL) a[held->entry] = value.a;
+	}
+}
+
+static void hold(JnSystem* base, JnVec r) {
+	const JnModel* model = of(base)->model;
+	for (int i = 0; i < model->held_count; ++i) r[model->held_list[i].entry] = 0;
+}
+
+static JnStatus force(JnSystem* base, const JnState* s, JnVec f) {
+	JnModelSystem* sys = of(base);
+	const JnModel* model = sys->model;
+	update_internal(sys, s);
+	base->space->ops->combine(base->space, f, 2, (JnTerm[]){{1, sys->internal}, {1, sys->external}});
+	if (model->alpha_mass != NULL) jn_scalars_apply(&model->pattern, model->alpha_mass, -1, s->v, f, model->threads);
+	if (sys->damping_is_current && sys->damping_stamp != s->stamp) make_damping(sys, s->x, s->stamp);
+	if (sys->damping != NULL) jn_blocks_apply(&model->pattern, sys->damping, -1, s->v, f, model->threads);
+	return JN_OK;
+}
+
+static double gravity_potential(const JnModel* model, const double* x) {
+	double sum = 0;
+	for (int node = 0; node < model->node_count; ++node) {
+		double work = 0;
+		for (int axis = 0; axis < 3; ++axis) {
+			const size_t k = 3 * (size_t)node + (size_t)axis;
+			work += model->gravity[axis] * (x[k] - model->rest[k]);
+		}
+		sum -= model->nodal_mass[node] * work;
+	}
+	return sum;
+}
+
+static double energy(JnSystem* base, const JnState* s) {
+	JnModelSystem* sys = of(base);
+	return jn_assembly_energy(sys->assembly, s->x) + gravity_potential(sys->model, s->x);
+}
+
+static JnStatus linearize(JnSystem* base, const JnState* s) {
+	JnModelSystem* sys = of(base);
+	const bool is_constant = base->is_linear_in_step && sys->stiffness_stamp != 0;
+	if (sys->stiffness_stamp == s->stamp || is_constant) return JN_OK;
+	jn_assembly_tangent(sys->assembly, s->x, JN_EXACT, NULL, sys->stiffness);
+	memcpy(sys->linear_x, s->x, base->space->length * sizeof *sys->linear_x);
+	sys->stiffness_stamp = s->stamp;
+	++base->report->tangents;
+	jn_model_matrix_expire(sys);
+	return JN_OK;
+}
+
+static JnStatus matrix(JnSystem* base, JnShift shift, JnMatrix** out) {
+	return jn_model_matrix(of(base), shift, out);
+}
+
+static double max_step(JnSystem* base, const JnState* from, const JnState* to) {
+	(void)base, (void)from, (void)to;
+	return 1;
+}
+
+static const JnSystemOps system_ops = {
+	.begin = begin,
+	.prescribe = prescribe,
+	.hold = hold,
+	.force = force,
+	.energy = energy,
+	.linearize = linearize,
+	.matrix = matrix,
+	.max_step = max_step,
+};
+
+// What rounding of positions leaves in a force: stiffness times the spacing of doubles at the model's coordinates.
+static double rounding_force(JnModelSystem* sys) {
+	const JnModel* model = sys->model;
+	JnSpace* space = sys->base.space;
+	const double reach = space->ops->max(space, model->rest);
+	double sum = 0;
+	for (int node = 0; node < model->node_count; ++node)
+		for (int axis = 0; axis < 3; ++axis) {
+			const double k = sys->stiffness[9 * (size_t)model->pattern.column_start[node] + 4 * (size_t)axis];
+			sum += model->held[3 * node + axis] ? 0 : k * k;
+		}
+	return DBL_EPSILON * reach * sqrt(sum);
+}
+
+static JnStatus allocate(JnModelSystem* sys) {
+	JnModel* model = sys->model;
+	JnArena* arena = &model->arena;
+	const size_t n = 3 * (size_t)model->node_count, entries = 9 * (size_t)model->pattern.blocks;
+	JN_NEW(arena, sys->external, n);
+	JN_NEW(arena, sys->internal, n);
+	JN_NEW(arena, sys->linear_x, n);
+	JN_NEW(arena, sys->momenta, n);
+	JN_NEW(arena, sys->stiffness, entries);
+	JN_NEW(arena, sys->scratch, entries);
+	if (model->has_beta) JN_NEW(arena, sys->damping, entries);
+	JN_NEW(arena, sys->beta, model->body_count);
+	for (int k = 0; k < 3 * model->node_count; ++k) sys->external[k] = model->nodal_mass[k / 3] * model->gravity[k % 3];
+	sys->base.is_linear_in_step = true;
+	for (int b = 0; b < model->body_count; ++b) {
+		const JnBody* body = &model->bodies[b];
+		sys->beta[b] = body->damping.beta;
+		sys->base.is_linear_in_step &= body->group.kernel->law->is_linear_in_step;
+		sys->damping_is_current |= body->damping.beta > 0 && body->damping.stiffness == 2;
+	}
+	return JN_OK;
+}
+
+// One damping matrix serves all bodies, so that they must agree on where K is taken.
+static JnStatus check_damping(JnModelSystem* sys) {
+	int chosen = -1;
+	for (int b = 0; b < sys->model->body_count; ++b) {
+		const JnDampingDef* damping = &sys->model->bodies[b].damping;
+		if (damping->beta == 0) continue;
+		if (chosen >= 0 && chosen != damping->stiffness)
+			return jn_error(JN_BAD_INPUT,
+							"bodies[%d].damping.stiffness: differs from that of an earlier body; use one for all", b);
+		chosen = damping->stiffness;
+	}
+	sys->damping_at_rest = chosen == 1;
+	return JN_OK;
+}
+
+JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver) {
+	JnModelSystem* sys;
+	JN_NEW(&model->arena, sys, 1);
+	sys->base.ops = &system_ops;
+	sys->model = model;
+	model->system = &sys->base;
+	sys->base.space = jn_host_space_create(3 * (size_t)model->node_count, model->threads);
+	if (sys->base.space == NULL) return JN_OUT_OF_MEMORY;
+	JN_TRY(jn_assembly_create(model, &sys->assembly));
+	JN_TRY(allocate(sys));
+	JN_TRY(check_damping(sys));
+	const JnSolverType* type = (const JnSolverType*)solver->row;
+	JN_TRY(type->create(solver->options, &model->pattern, model->held, &sys->solver));
+	jn_assembly_freeze(sys->assembly, model->rest);
+	jn_assembly_tangent(sys->assembly, model->rest, JN_EXACT, NULL, sys->stiffness);
+	sys->base.force_floor = rounding_force(sys);
+	return JN_OK;
+}
+
+void jn_model_system_destroy(JnModel* model) {
+	JnModelSystem* sys = of(model->system);
+	if (sys == NULL) return;
+	if (sys->solver != NULL) sys->solver->type->destroy(sys->solver);
+	jn_host_space_destroy(sys->base.space);
+	model->system = NULL;
+}
+
+// Linear and angular momentum from the nodal momenta p = M v.
+static void add_momenta(const double* x, const double* p, JnEnergies* out) {
+	out->momentum[0] += p[0];
+	out->momentum[1] += p[1];
+	out->momentum[2] += p[2];
+	out->angular[0] += x[1] * p[2] - x[2] * p[1];
+	out->angular[1] += x[2] * p[0] - x[0] * p[2];
+	out->angular[2] += x[0] * p[1] - x[1] * p[0];
+}
+
+JnEnergies jn_model_energies(JnModel* model, const JnState* state) {
+	JnModelSystem* sys = of(model->system);
+	JnSpace* space = sys->base.space;
+	JnMatrix* mass = NULL;
+	JnEnergies out = {.elastic = jn_assembly_energy(sys->assembly, state->x),
+					  .gravity = gravity_potential(model, state->x)};
+	jn_model_matrix(sys, (JnShift){.mass = 1}, &mass);
+	double* p = sys->momenta;
+	mass->ops->apply(mass, state->v, p);
+	out.kinetic = 0.5 * space->ops->dot(space, state->v, p);
+	for (int node = 0; node < model->node_count; ++node)
+		add_momenta(state->x + 3 * (size_t)node, p + 3 * (size_t)node, &out);
+	return out;
+}

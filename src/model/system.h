@@ -1,0 +1,52 @@
+/// @file system.h
+/// A model as the system M a = f(t, x, v) that integrators see, and the numbers it keeps between calls.
+#ifndef JN_MODEL_SYSTEM_H
+#define JN_MODEL_SYSTEM_H
+
+#include "model/assembly.h"
+
+typedef struct JnModelSystem JnModelSystem;
+
+/// mass M + damping D + stiffness K, with a factor that is kept until K changes.
+typedef struct JnModelMatrix {
+	JnMatrix base;
+	JnShift shift;
+	int slot; ///< of the solver
+	bool is_used;
+	uint64_t last_use; ///< order of use, for replacing the oldest
+} JnModelMatrix;
+
+struct JnModelSystem {
+	JnSystem base;
+	JnModel* model;
+	JnAssembly* assembly;
+	JnSolver* solver;
+
+	double* external; ///< gravity [N], 3 * nodes
+	double* internal; ///< internal forces at the state of internal_stamp [N]
+	uint64_t internal_stamp;
+	double* stiffness; ///< K at the state of stiffness_stamp, 9 a block; exact
+	uint64_t stiffness_stamp;
+	double* linear_x;        ///< positions at which K was made
+	double* damping;         ///< beta part of D, 9 a block; NULL when no body has beta
+	uint64_t damping_stamp;  ///< state at which D was made; 0: not yet
+	double* beta;            ///< one a body [s]
+	bool damping_at_rest;    ///< D is made once, at the rest positions
+	bool damping_is_current; ///< D follows the state
+	double* momenta;         ///< M v, for the energies
+	double* scratch;         ///< 9 a block: the shifted matrix before it is factored
+	JnModelMatrix matrices[JN_SOLVER_SLOTS];
+	uint64_t uses;
+};
+
+/// Build the system of a finished model (mass, pattern and constraints present), into model->system.
+JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver);
+void jn_model_system_destroy(JnModel* model);
+
+/// Find or make the matrix of a shift.
+JnStatus jn_model_matrix(JnModelSystem* sys, JnShift shift, JnMatrix** out);
+
+/// Every kept factor that depends on K or D is out of date.
+void jn_model_matrix_expire(JnModelSystem* sys);
+
+#endif
