@@ -1,0 +1,136 @@
+// Builds element groups: rest data in batches, with J0 = sum_i X_i (x) dN_i/dxi at each quadrature point.
+#include <math.h>
+#include <string.h>
+
+#include "base/log.h"
+#include "force/element.h"
+#include "force/kernel.h"
+#include "math/mat3.h"
+
+static const JnElement* const elements[JN_SHAPE_COUNT] = {
+	[JN_TET4] = &jn_element_tet4, [JN_TET10] = &jn_element_tet10, [JN_HEX8] = &jn_element_hex8};
+
+/// J[a][r] = dX_a/dxi_r at point p of a cell.
+static void rest_jacobian(const JnElement* element, const JnMesh* mesh, int cell, int p, double J[3][3]) {
+	const int* nodes = mesh->cells + (ptrdiff_t)cell * element->nodes;
+	const double* origin = mesh->nodes + 3 * (ptrdiff_t)nodes[element->nodes - 1];
+	memset(J, 0, 9 * sizeof(double));
+	for (int i = 0; i < element->nodes - 1; i++) {
+		const double* X = mesh->nodes + 3 * (ptrdiff_t)nodes[i];
+		for (int k = 0; k < 9; k++) J[k / 3][k % 3] += (X[k / 3] - origin[k / 3]) * element->gradient[p][i][k % 3];
+	}
+}
+
+/// Fill one lane of the group with a cell. `share` is 1, or 0 in padding.
+static JnStatus fill_lane(JnGroup* group, const JnMesh* mesh, int nodes_offset, int slot, int cell, double share) {
+	const JnElement* element = elements[mesh->shape];
+	const int width = group->kernel->width, lane = slot % width;
+	const ptrdiff_t batch = slot / width;
+	const double volume = jn_mesh_cell_volume(mesh, cell); // quadrature points alone miss exchanged corners of a tet10
+	for (int i = 0; i < element->nodes; i++) {
+		const int node = mesh->cells[(ptrdiff_t)cell * element->nodes + i];
+		group->nodes[(batch * element->nodes + i) * width + lane] = node + nodes_offset;
+	}
+	for (int p = 0; p < element->points; p++) {
+		double J[3][3], inverse[3][3];
+		rest_jacobian(element, mesh, cell, p, J);
+		const double determinant = mat3_invert(J, inverse);
+		if (!(determinant > 0 && volume > 0) || !isfinite(inverse[0][0])) {
+			return jn_error(JN_BAD_INPUT,
+							"cell %d of the %s mesh is flat or inside out: its volume is %g m^3 and its Jacobian at "
+							"quadrature point %d is %g, both must be > 0; check the order of its nodes",
+							cell, jn_shape_info[mesh->shape].name, volume, p, determinant);
+		}
+		double* rest = group->rest + (batch * element->points + p) * 10 * width + lane;
+		for (int k = 0; k < 9; k++) rest[k * width] = inverse[k / 3][k % 3];
+		rest[9 * width] = share * element->weight * determinant;
+	}
+	return JN_OK;
+}
+
+/// Rotations start as the identity.
+static void reset_frozen(JnGroup* group) {
+	const int width = group->kernel->width, reals = group->kernel->frozen_reals;
+	const ptrdiff_t points = (ptrdiff_t)group->batches * group->kernel->points;
+	for (ptrdiff_t p = 0; p < points; p++) {
+		for (int k = 0; k < reals; k++) {
+			for (int lane = 0; lane < width; lane++) {
+				group->frozen[(p * reals + k) * width + lane] = k % 4 == 0;
+			}
+		}
+	}
+}
+
+JnStatus jn_group_create(const JnKernel* kernel, const JnMesh* mesh, int nodes_offset, const JnMaterialDef* material,
+						 JnArena* arena, JnGroup* group) {
+	const int width = kernel->width, batches = (mesh->cell_count + width - 1) / width;
+	const size_t slots = (size_t)batches * width;
+	*group = (JnGroup){.kernel = kernel, .count = mesh->cell_count, .batches = batches, .density = material->density};
+	kernel->law->prepare(material, group->constants);
+	JN_NEW(arena, group->nodes, slots * kernel->nodes);
+	JN_NEW(arena, group->rest, slots * kernel->points * 10);
+	if (kernel->frozen_reals > 0) {
+		JN_NEW(arena, group->frozen, slots * kernel->points * kernel->frozen_reals);
+		reset_frozen(group);
+	}
+	for (int slot = 0; slot < (int)slots; slot++) {
+		const bool is_padding = slot >= mesh->cell_count;
+		const int cell = is_padding ? mesh->cell_count - 1 : slot;
+		JN_TRY(fill_lane(group, mesh, nodes_offset, slot, cell, is_padding ? 0 : 1));
+	}
+	return JN_OK;
+}
+
+/// integral of N_i N_j over a tetrahedron of volume 1, times 420: 6 and 1 between corners; 32, 16 and 8 between equal,
+/// adjacent and opposite mid-edge nodes; -4 and -6 between a corner and an edge with and without it.
+static double tet10_mass_420(int i, int j) {
+	static const int ends[10][2] = {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+	const int *e = ends[i], *f = ends[j];
+	const bool touch = e[0] == f[0] || e[0] == f[1] || e[1] == f[0] || e[1] == f[1];
+	if (i < 4 && j < 4) return i == j ? 6 : 1;
+	if (i < 4 || j < 4) return touch ? -4 : -6;
+	if (i == j) return 32;
+	return touch ? 16 : 8;
+}
+
+/// Trilinear shape functions and gradients at xi.
+static void hex8_functions(const double xi[3], double N[8], double dN[8][3]) {
+	static const int corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+									 {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+	for (int i = 0; i < 8; i++) {
+		double factor[3];
+		for (int r = 0; r < 3; r++) factor[r] = 0.5 * (1 + corner[i][r] * xi[r]);
+		N[i] = factor[0] * factor[1] * factor[2];
+		for (int r = 0; r < 3; r++) dN[i][r] = 0.5 * corner[i][r] * factor[(r + 1) % 3] * factor[(r + 2) % 3];
+	}
+}
+
+/// N_i N_j det J has degree 4 in each coordinate: three Gauss points, exact to degree 5.
+static void hex8_mass(const JnMesh* mesh, int cell, double density, double* out) {
+	const double points[3] = {-sqrt(0.6), 0, sqrt(0.6)}, weights[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
+	memset(out, 0, 64 * sizeof(double));
+	for (int point = 0; point < 27; point++) {
+		const int k[3] = {point % 3, point / 3 % 3, point / 9};
+		double N[8], dN[8][3], J[3][3] = {{0}};
+		hex8_functions((const double[]){points[k[0]], points[k[1]], points[k[2]]}, N, dN);
+		for (int i = 0; i < 8; i++) {
+			const double* X = mesh->nodes + 3 * (ptrdiff_t)mesh->cells[(ptrdiff_t)cell * 8 + i];
+			for (int m = 0; m < 9; m++) J[m / 3][m % 3] += X[m / 3] * dN[i][m % 3];
+		}
+		const double mass = density * weights[k[0]] * weights[k[1]] * weights[k[2]] * mat3_determinant(J);
+		for (int m = 0; m < 64; m++) out[m] += mass * N[m / 8] * N[m % 8];
+	}
+}
+
+void jn_group_cell_mass(const JnMesh* mesh, int cell, double density, double* out) {
+	if (mesh->shape == JN_HEX8) {
+		hex8_mass(mesh, cell, density, out);
+		return;
+	}
+	const double mass = density * jn_mesh_cell_volume(mesh, cell);
+	const int nodes = jn_shape_info[mesh->shape].nodes;
+	for (int m = 0; m < nodes * nodes; m++) {
+		const int i = m / nodes, j = m % nodes;
+		out[m] = mesh->shape == JN_TET4 ? mass * (i == j ? 2 : 1) / 20 : mass * tet10_mass_420(i, j) / 420;
+	}
+}

@@ -1,0 +1,84 @@
+/// @file kernel.h
+/// An element kernel: one (element, law) pair over batches of W elements. No indirect call inside its loops.
+///
+///   batch 0: elements 0 .. W-1    batch 1: elements W .. 2W-1   ...   the last one padded by repeating its last element
+///   every per-element number stands as [batch][...][lane], so that a lane is one element and a row is one vector
+///
+/// W = 8 with AVX-512, 4 with AVX2 and FMA, 2 otherwise: the same sources compiled three times, chosen at run time.
+#ifndef JN_FORCE_KERNEL_H
+#define JN_FORCE_KERNEL_H
+
+#include "base/arena.h"
+#include "jounce/extend.h"
+#include "mesh/mesh.h"
+
+enum { JN_LAW_CONSTANTS = 8 };
+
+/// Keys of `material:` that all laws share.
+typedef struct JnMaterialDef {
+	double density; ///< [kg/m^3]
+	double young;   ///< E [Pa]
+	double poisson; ///< nu
+} JnMaterialDef;
+
+/// A constitutive law as scene files name it. What it computes stands in material/<name>.h, compiled into the kernels.
+typedef struct JnLaw {
+	JnRow row;
+	void (*prepare)(const JnMaterialDef* def, double constants[JN_LAW_CONSTANTS]); ///< Lame constants and the like
+	bool is_linear_in_step; ///< force linear in x between two freezes: Newton needs one iteration
+} JnLaw;
+
+extern const JnRowList jn_law_list; ///< rows are &JnLaw.row
+
+typedef struct JnGroup JnGroup;
+
+typedef struct JnKernel {
+	const JnLaw* law;
+	JnShape shape;
+	int width;        ///< W: elements in a batch
+	int nodes;        ///< nodes of an element
+	int points;       ///< quadrature points of an element
+	int frozen_reals; ///< doubles a point that freeze() keeps; 0: none
+
+	/// out[batch - first][lane] = elastic energy of each element [J], first <= batch < last.
+	void (*energy)(const JnGroup*, int first, int last, const double* x, double* out);
+	/// out[batch - first][3 * nodes][lane] = force on each node of the element [N], -dE/dx.
+	void (*force)(const JnGroup*, int first, int last, const double* x, double* out);
+	/// out[batch - first][pair][9][lane] = 3x3 blocks of K = -df/dx [N/m], row-major, for the local node pairs
+	/// (0,0) (1,0) (1,1) (2,0) ...: pair = i (i + 1) / 2 + j, j <= i. `definite`: eigenvalues of dP/dF clamped to >= 0.
+	void (*tangent)(const JnGroup*, int first, int last, const double* x, bool definite, double* out);
+	/// Fix what stays constant over a step (rotations) from x, into group->frozen. NULL: nothing to fix.
+	void (*freeze)(JnGroup*, int first, int last, const double* x);
+} JnKernel;
+
+/// A body's elements of one kernel.
+struct JnGroup {
+	const JnKernel* kernel;
+	int count;   ///< elements
+	int batches; ///< ceil(count / W)
+	int* nodes;  ///< [batches][nodes][W]: node numbers; 3 * node is the offset in x
+	double*
+		rest; ///< [batches][points][10][W]: inverse rest Jacobian, row-major (d xi_r / d X_c), and weight [m^3]; 0 in padding
+	double* frozen; ///< [batches][points][frozen_reals][W], or NULL
+	double constants[JN_LAW_CONSTANTS];
+	double density; ///< [kg/m^3]
+	double alpha;   ///< Rayleigh damping, mass part [1/s]
+	double beta;    ///< Rayleigh damping, stiffness part [s]
+};
+
+/// The kernel of (shape, law) for the widest unit that this processor has, or for `width` lanes when that is not 0
+/// (NULL if the processor lacks them).
+const JnKernel* jn_kernel_find(JnShape shape, const JnLaw* law, int width);
+
+/// Lanes that jn_kernel_find chooses by itself: 8, 4 or 2.
+int jn_kernel_best_width(void);
+
+/// Build the group of a mesh's cells; `nodes_offset` is added to each node number. Fails with JN_BAD_INPUT naming the
+/// first cell whose rest Jacobian is not positive.
+JnStatus jn_group_create(const JnKernel* kernel, const JnMesh* mesh, int nodes_offset, const JnMaterialDef* material,
+						 JnArena* arena, JnGroup* group);
+
+/// Consistent element mass: out[i * nodes + j] = integral of density N_i N_j over `cell` [kg], exact for straight sides.
+void jn_group_cell_mass(const JnMesh* mesh, int cell, double density, double* out);
+
+#endif

@@ -1,0 +1,136 @@
+/// @file wide.h
+/// JN_WIDE doubles side by side: a GNU vector type on which +, -, * and / work as on numbers, and what else formulas
+/// need. One lane is one element. For equal inputs 8 and 4 lanes give the same bits; 2 lanes round a * b + c twice.
+#ifndef JN_MATH_WIDE_H
+#define JN_MATH_WIDE_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifndef JN_WIDE
+	#define JN_WIDE 2
+#endif
+
+#if JN_WIDE == 8 || JN_WIDE == 4 || defined(__SSE2__)
+	#include <immintrin.h>
+	#define JN_WIDE_INTRINSICS 1
+#else
+	#define JN_WIDE_INTRINSICS 0
+#endif
+
+/// For functions whose arguments are compile-time constants where they are used: templates in C.
+#define JN_INLINE static inline __attribute__((always_inline, unused))
+/// For the larger pieces that many loops of one file share.
+#define JN_SHARED static __attribute__((noinline, unused))
+/// Unroll the loop that follows, so that arrays of vectors become registers.
+#define JN_UNROLL _Pragma("GCC unroll 16")
+
+typedef double Wide __attribute__((vector_size(JN_WIDE * 8)));
+typedef int64_t WideMask __attribute__((vector_size(JN_WIDE * 8))); ///< all bits of a lane set, or none
+typedef double WideInMemory __attribute__((vector_size(JN_WIDE * 8), aligned(8), may_alias));
+
+#if JN_WIDE_INTRINSICS && JN_WIDE == 8
+	#define JN_WIDE_CALL(name) _mm512_##name
+#elif JN_WIDE_INTRINSICS && JN_WIDE == 4
+	#define JN_WIDE_CALL(name) _mm256_##name
+#elif JN_WIDE_INTRINSICS
+	#define JN_WIDE_CALL(name) _mm_##name
+#endif
+
+/// The same number in every lane.
+JN_INLINE Wide wide_set(double number) {
+#if JN_WIDE_INTRINSICS
+	return JN_WIDE_CALL(set1_pd)(number);
+#else
+	return (Wide){number, number};
+#endif
+}
+
+/// JN_WIDE consecutive numbers, aligned to 8 bytes at least.
+JN_INLINE Wide wide_load(const double* from) {
+	return *(const WideInMemory*)from;
+}
+
+JN_INLINE void wide_store(double* to, Wide a) {
+	*(WideInMemory*)to = a;
+}
+
+/// from[stride * index[lane]] in each lane.
+JN_INLINE Wide wide_gather(const double* from, int stride, const int* index) {
+#define JN_AT(lane) from[(ptrdiff_t)stride * index[lane]]
+#if JN_WIDE == 8
+	return (Wide){JN_AT(0), JN_AT(1), JN_AT(2), JN_AT(3), JN_AT(4), JN_AT(5), JN_AT(6), JN_AT(7)};
+#elif JN_WIDE == 4
+	return (Wide){JN_AT(0), JN_AT(1), JN_AT(2), JN_AT(3)};
+#else
+	return (Wide){JN_AT(0), JN_AT(1)};
+#endif
+#undef JN_AT
+}
+
+/// mask ? a : b, lane by lane.
+JN_INLINE Wide wide_select(WideMask mask, Wide a, Wide b) {
+	return (Wide)((mask & (WideMask)a) | (~mask & (WideMask)b));
+}
+
+/// Whether any lane of the mask is set.
+JN_INLINE bool wide_any(WideMask mask) {
+	int64_t any = 0;
+	JN_UNROLL for (int lane = 0; lane < JN_WIDE; lane++) any |= mask[lane];
+	return any != 0;
+}
+
+JN_INLINE Wide wide_abs(Wide a) {
+	return (Wide)((WideMask)a & INT64_MAX);
+}
+
+/// |magnitude| with the sign of `sign`.
+JN_INLINE Wide wide_copy_sign(Wide magnitude, Wide sign) {
+	return (Wide)(((WideMask)magnitude & INT64_MAX) | ((WideMask)sign & INT64_MIN));
+}
+
+/// a > b ? a : b, hence b when either is NAN.
+JN_INLINE Wide wide_max(Wide a, Wide b) {
+#if JN_WIDE_INTRINSICS
+	return JN_WIDE_CALL(max_pd)(a, b);
+#else
+	return wide_select(a > b, a, b);
+#endif
+}
+
+/// a < b ? a : b, hence b when either is NAN.
+JN_INLINE Wide wide_min(Wide a, Wide b) {
+#if JN_WIDE_INTRINSICS
+	return JN_WIDE_CALL(min_pd)(a, b);
+#else
+	return wide_select(a < b, a, b);
+#endif
+}
+
+JN_INLINE Wide wide_sqrt(Wide a) {
+#if JN_WIDE_INTRINSICS
+	return JN_WIDE_CALL(sqrt_pd)(a);
+#else
+	return (Wide){sqrt(a[0]), sqrt(a[1])};
+#endif
+}
+
+/// a * b + c, rounded once where the processor can (8 and 4 lanes).
+JN_INLINE Wide wide_fma(Wide a, Wide b, Wide c) {
+#if JN_WIDE > 2
+	return JN_WIDE_CALL(fmadd_pd)(a, b, c);
+#else
+	return a * b + c;
+#endif
+}
+
+/// Natural logarithm by the C library, so that all widths agree; -INFINITY at 0, NAN below.
+JN_INLINE Wide wide_log(Wide a) {
+	Wide result = a;
+	for (int lane = 0; lane < JN_WIDE; lane++) result[lane] = log(a[lane]);
+	return result;
+}
+
+#endif

@@ -1,0 +1,29 @@
+/// @file generate.h
+/// Meshes made from a few numbers: boxes of hex8, tet4 and tet10 cells.
+#ifndef JN_MESH_GENERATE_H
+#define JN_MESH_GENERATE_H
+
+#include "jounce/extend.h"
+#include "mesh/mesh.h"
+
+/// Keys of `shape: {type: box}`. Corner `origin`, edges along x, y, z.
+typedef struct JnBoxDef {
+	double origin[3]; ///< lowest corner [m]
+	double size[3];   ///< edge lengths [m], each > 0
+	int cells[3];     ///< hexahedra along each axis, each >= 1
+	int element;      ///< JnShape
+} JnBoxDef;
+
+/// The row of a generated shape: its generator fills a mesh, allocated from the arena.
+typedef struct JnShapeType {
+	JnRow row;
+	JnStatus (*generate)(const void* options, JnArena* arena, JnMesh* mesh);
+} JnShapeType;
+
+extern const JnRowList jn_shape_list;
+
+/// A box of size.cells hexahedra (node index fastest in x, then y, then z), or each hexahedron split into six
+/// tetrahedra that match across faces (Kuhn), with mid-edge nodes for tet10, shared between cells.
+JnStatus jn_generate_box(const JnBoxDef* def, JnArena* arena, JnMesh* mesh);
+
+#endif

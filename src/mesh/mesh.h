@@ -1,0 +1,35 @@
+/// @file mesh.h
+/// A volume mesh of one element shape: node positions and cells. Pure geometry.
+#ifndef JN_MESH_MESH_H
+#define JN_MESH_MESH_H
+
+#include "base/arena.h"
+#include "jounce/base.h"
+
+/// Element shapes. Node order is that of VTK.
+typedef enum JnShape { JN_TET4, JN_TET10, JN_HEX8, JN_SHAPE_COUNT } JnShape;
+
+typedef struct JnShapeInfo {
+	const char* name; ///< "tet4"
+	int nodes;        ///< nodes of a cell
+	int vtk_type;     ///< VTK cell type: 10, 24, 12
+	const char* xdmf; ///< XDMF topology type: "Tetrahedron", "Tetrahedron_10", "Hexahedron"
+	int faces;        ///< faces of a cell
+	int face_nodes;   ///< nodes of a face: 3, 6 or 4
+	const int* face;  ///< faces * face_nodes local node numbers, corners first, outward by the right-hand rule
+} JnShapeInfo;
+
+extern const JnShapeInfo jn_shape_info[JN_SHAPE_COUNT];
+
+typedef struct JnMesh {
+	JnShape shape;
+	int node_count;
+	double* nodes; ///< 3 * node_count coordinates [m]
+	int cell_count;
+	int* cells; ///< cell_count * jn_shape_info[shape].nodes node numbers
+} JnMesh;
+
+/// Volume of a cell by its straight-sided corners [m^3]; negative when it is inside out.
+double jn_mesh_cell_volume(const JnMesh* mesh, int cell);
+
+#endif
