@@ -1,0 +1,22 @@
+/// @file app.h
+/// The subcommands of the command `jounce`; each is one file and one row of the table in main.c.
+#ifndef JN_APP_APP_H
+#define JN_APP_APP_H
+
+#include "jounce/base.h"
+
+/// Exit statuses of the command.
+enum { EXIT_DONE = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2, EXIT_FILE_FAILED = 3 };
+
+int app_run(int count, char** arguments);
+int app_check(int count, char** arguments);
+int app_list(int count, char** arguments);
+int app_describe(int count, char** arguments);
+
+/// The exit status for a library status.
+int app_exit_status(JnStatus status);
+
+/// Print "jounce: <what> '<word>'..." with a pointer to --help; returns EXIT_BAD_INPUT.
+int app_usage_error(const char* command, const char* format, ...) __attribute__((format(printf, 2, 3)));
+
+#endif

@@ -1,0 +1,94 @@
+// The command `jounce`: picks the subcommand.
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "app.h"
+#include "base/key.h"
+#include "force/kernel.h"
+#include "solve/blas.h"
+
+typedef struct Command {
+	const char* name;
+	int (*run)(int count, char** arguments);
+	const char* doc;
+} Command;
+
+static const Command commands[] = {
+	{"run", app_run, "simulate a scene and record it"},
+	{"check", app_check, "read and validate a scene, run nothing"},
+	{"list", app_list, "show what there is: integrators, materials, elements, solvers, controllers"},
+	{"describe", app_describe, "explain the keys of scene files"},
+};
+enum { COMMANDS = sizeof commands / sizeof *commands };
+
+static const char* command_name(void* context, int index) {
+	(void)context;
+	return index < COMMANDS ? commands[index].name : NULL;
+}
+
+int app_exit_status(JnStatus status) {
+	switch (status) {
+	case JN_OK:
+		return EXIT_DONE;
+	case JN_BAD_INPUT:
+		return EXIT_BAD_INPUT;
+	case JN_IO_FAILED:
+		return EXIT_FILE_FAILED;
+	default:
+		return EXIT_RUN_FAILED;
+	}
+}
+
+int app_usage_error(const char* command, const char* format, ...) {
+	va_list arguments;
+	va_start(arguments, format);
+	fputs("jounce: error: ", stderr);
+	vfprintf(stderr, format, arguments);
+	fprintf(stderr, "; 'jounce %s%s--help' explains\n", command, *command != '\0' ? " " : "");
+	va_end(arguments);
+	return EXIT_BAD_INPUT;
+}
+
+static void print_help(void) {
+	puts("jounce simulates deformable solids and makes the way it steps through time a choice.\n\n"
+		 "usage: jounce COMMAND ...\n");
+	for (int i = 0; i < COMMANDS; ++i) printf("  %-10s %s\n", commands[i].name, commands[i].doc);
+	puts("\n  --version  version, vector width and dense kernels in use\n  --help     this text; also after a "
+		 "command\n\n"
+		 "exit status: 0 done, 1 the simulation failed (the last good state is on disk),\n"
+		 "             2 bad input or usage, 3 a file could not be read or written");
+}
+
+static void print_version(void) {
+	char blas[96];
+	jn_blas_prepare();
+	jn_blas_name(blas, sizeof blas);
+	printf("jounce %s\n%d elements at once in the element loops\n%s, one thread\n", JN_VERSION, jn_kernel_best_width(),
+		   blas);
+}
+
+// OpenBLAS chooses its kernels when it is loaded, before main; when it mistook the processor, start again with the right
+// choice in the environment.
+static void restart_with_better_blas(char** arguments) {
+	const char* core = jn_blas_better_core();
+	if (core == NULL || getenv("OPENBLAS_CORETYPE") != NULL) return;
+	if (setenv("OPENBLAS_CORETYPE", core, 1) == 0) execv("/proc/self/exe", arguments);
+}
+
+int main(int count, char** arguments) {
+	restart_with_better_blas(arguments);
+	if (count < 2) {
+		print_help();
+		return EXIT_BAD_INPUT;
+	}
+	if (strcmp(arguments[1], "--help") == 0 || strcmp(arguments[1], "-h") == 0) return print_help(), EXIT_DONE;
+	if (strcmp(arguments[1], "--version") == 0) return print_version(), EXIT_DONE;
+	for (int i = 0; i < COMMANDS; ++i)
+		if (strcmp(arguments[1], commands[i].name) == 0) return commands[i].run(count - 1, arguments + 1);
+	const char* near = jn_suggest(arguments[1], command_name, NULL);
+	if (near != NULL) return app_usage_error("", "there is no command '%s'; did you mean '%s'", arguments[1], near);
+	return app_usage_error("", "there is no command '%s'", arguments[1]);
+}

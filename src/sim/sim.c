@@ -1,0 +1,149 @@
+// The loop of every simulation:
+//   repeat (integrator: start -> end; controller: accept?) until accepted -> swap -> begin the next step
+// The system begins a step as soon as its start is known, so that energies reported for a state use the rotations of
+// that state.
+#include "jounce/sim.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/log.h"
+#include "base/parallel.h"
+#include "base/space.h"
+#include "control/controller.h"
+#include "integrate/integrator.h"
+
+struct JnSim {
+	const JnSimDef* def;
+	int threads;
+	JnModel* model;
+	JnSystem* sys;
+	JnIntegrator* integrator;
+	JnController* controller;
+	JnState start, end; // start is the state of the last accepted step
+	double next_dt, last_dt;
+	long steps;
+	JnReport report;
+};
+
+static JnStatus create_parts(JnSim* sim) {
+	const JnSimDef* def = sim->def;
+	JN_TRY(jn_model_create(&def->model, sim->threads, &sim->model));
+	sim->sys = jn_model_system(sim->model);
+	sim->sys->report = &sim->report;
+	JN_TRY(jn_state_create(sim->sys->space, &sim->start));
+	JN_TRY(jn_state_create(sim->sys->space, &sim->end));
+	sim->integrator = jn_integrator_create(&def->integrator, &def->newton, sim->sys->space);
+	sim->controller = jn_controller_create(&def->step);
+	if (sim->integrator == NULL || sim->controller == NULL) return JN_OUT_OF_MEMORY;
+	sim->next_dt = sim->controller->type->first(sim->controller);
+	jn_model_start(sim->model, 0, &sim->start);
+	return sim->sys->ops->begin(sim->sys, &sim->start);
+}
+
+JnStatus jn_sim_create(const JnSimDef* def, int threads, JnSim** out) {
+	*out = NULL;
+	JnSim* sim = calloc(1, sizeof *sim);
+	if (sim == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: simulation");
+	sim->def = def;
+	sim->threads = threads > 0 ? threads : jn_threads_available();
+	const JnStatus status = create_parts(sim);
+	if (status == JN_OK)
+		*out = sim;
+	else
+		jn_sim_destroy(sim);
+	return status;
+}
+
+void jn_sim_destroy(JnSim* sim) {
+	if (sim == NULL) return;
+	jn_controller_destroy(sim->controller);
+	jn_integrator_destroy(sim->integrator);
+	if (sim->sys != NULL) {
+		jn_state_destroy(sim->sys->space, &sim->start);
+		jn_state_destroy(sim->sys->space, &sim->end);
+	}
+	jn_model_destroy(sim->model);
+	free(sim);
+}
+
+static void add_report(JnReport* sum, const JnReport* one) {
+	sum->newton += one->newton;
+	sum->forces += one->forces;
+	sum->tangents += one->tangents;
+	sum->factorizations += one->factorizations;
+	sum->solves += one->solves;
+	sum->indefinite += one->indefinite;
+	sum->backtracks += one->backtracks;
+	sum->residual = one->residual;
+}
+
+// The last step ends on the duration; a difference that is only rounding leaves the step as it is.
+static double clip(const JnSim* sim, double dt) {
+	const double left = sim->def->duration - sim->start.t;
+	return left < dt * (1 - 1e-9) ? left : dt;
+}
+
+static JnStatus explain_failure(const JnSim* sim, const JnStep* step, JnStatus outcome) {
+	return jn_error(
+		JN_RUN_FAILED,
+		"step %ld at t = %.9g s failed: %s with dt = %.3g s, the smallest step allowed; the last good state "
+		"is at t = %.9g s. Try a smaller step.dt, a more robust method (backward_euler), or more step.cuts",
+		sim->steps + 1, sim->start.t, jn_status_name(outcome), step->dt, sim->start.t);
+}
+
+JnStatus jn_sim_step(JnSim* sim) {
+	sim->report = (JnReport){0};
+	sim->sys->report = &sim->report;
+	JnVerdict verdict = {0};
+	while (!verdict.accepted) {
+		JnStep step = {.sys = sim->sys, .start = &sim->start, .end = &sim->end, .dt = clip(sim, sim->next_dt)};
+		const JnStatus outcome = sim->integrator->type->step(sim->integrator, &step);
+		sim->sys->report = &sim->report;
+		add_report(&sim->report, &step.report);
+		if (outcome < JN_OK) return outcome;
+		if (sim->controller->type->judge(sim->controller, &step, outcome, &verdict) != JN_OK)
+			return explain_failure(sim, &step, outcome);
+		if (!verdict.accepted) {
+			++sim->report.rejected;
+			jn_integrator_forget(sim->integrator);
+		} else if (sim->integrator->type->commit != NULL) {
+			sim->integrator->type->commit(sim->integrator, &step);
+		}
+		sim->last_dt = step.dt;
+		sim->next_dt = verdict.dt;
+	}
+	const JnState swap = sim->start;
+	sim->start = sim->end;
+	sim->end = swap;
+	++sim->steps;
+	return sim->sys->ops->begin(sim->sys, &sim->start);
+}
+
+bool jn_sim_is_done(const JnSim* sim) {
+	return sim->def->duration - sim->start.t <= 1e-9 * sim->next_dt;
+}
+
+JnModel* jn_sim_model(JnSim* sim) {
+	return sim->model;
+}
+
+const JnState* jn_sim_state(const JnSim* sim) {
+	return &sim->start;
+}
+
+long jn_sim_steps(const JnSim* sim) {
+	return sim->steps;
+}
+
+double jn_sim_last_dt(const JnSim* sim) {
+	return sim->last_dt;
+}
+
+const JnReport* jn_sim_last_report(const JnSim* sim) {
+	return &sim->report;
+}
+
+int jn_sim_threads(const JnSim* sim) {
+	return sim->threads;
+}
