@@ -69,7 +69,8 @@ typedef struct JnReport {
 	int indefinite;     ///< Newton matrices that were indefinite and were replaced by the definite form
 	int backtracks;     ///< halvings in the line search
 	int rejected;       ///< attempts thrown away before this one
-	double residual;    ///< residual norm at the end of the last stage, relative to the force scale
+	double error;    ///< embedded estimate of the step's error in position, largest entry [m]; 0: the method has none
+	double residual; ///< residual norm at the end of the last stage, relative to the force scale
 } JnReport;
 
 #ifdef __cplusplus

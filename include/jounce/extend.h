@@ -156,6 +156,8 @@ struct JnSystem {
 	double
 		force_scale; ///< norm of typical forces [N], against which residuals are judged; 0: taken from the forces met
 	double force_floor;     ///< norm of what rounding leaves in a force [N]; residuals below it count as zero
+	bool mass_is_diagonal;  ///< M^-1 is a division
+	bool depends_on_time;   ///< forces or held nodes change with t at fixed x and v
 	bool is_linear_in_step; ///< forces are linear in x and v between two begin()s
 	JnReport* report;       ///< where the system counts its work; set by whoever steps it, never NULL during a step
 };
@@ -173,15 +175,23 @@ typedef struct JnStep {
 	JnReport report;
 } JnStep;
 
+/// What a method asks of a system beyond forces.
+typedef enum JnNeeds {
+	JN_NEEDS_NOTHING = 0,
+	JN_NEEDS_DIAGONAL_MASS = 1, ///< explicit: solves with M alone, many times
+	JN_NEEDS_TANGENT = 2,       ///< linearize and matrix
+} JnNeeds;
+
 typedef struct JnIntegratorType {
 	JnRow row;
+	int needs;                                    ///< JnNeeds, combined by |
 	int order;                                    ///< classical order
 	double force_weight;                          ///< w in eps = w dt^2 |M^-1 (F - F~)|, for the force-error controller
 	int vectors;                                  ///< work vectors that a step needs
+	size_t memory_size;                           ///< bytes of JnIntegrator.memory; zero at the start and after a reset
 	const void* table;                            ///< coefficients, in the family's own form
 	JnStatus (*step)(JnIntegrator*, JnStep*);     ///< pure: the same start gives the same end
 	void (*commit)(JnIntegrator*, const JnStep*); ///< keep history; NULL for one-step methods
-	void (*reset)(JnIntegrator*);                 ///< forget history: someone edited the state; NULL for one-step
 } JnIntegratorType;
 
 /// Keys of `newton:` in a scene: how the stage problem is solved.
@@ -208,12 +218,18 @@ struct JnIntegrator {
 	double recent_t[2];  ///< their times [s], the latest first
 };
 
-/// Find a with  M a = f(t, x + kx a, v + kv a):  the only nonlinear problem that implicit methods have.
-/// Backward Euler, Newmark, generalised alpha, BDF2 and every DIRK stage differ in kx, kv, x and v alone.
-typedef struct JnStage {
+/// Find a with  M a = w f(t, x + kx a, v + kv a) + load:  the only nonlinear problem that implicit methods have.
+/// Backward Euler, Newmark, generalised alpha, BDF2 and every DIRK stage differ in kx, kv, x and v alone; HHT adds a
+/// weight and a load; methods that average forces add further points.
+typedef struct JnStage JnStage;
+struct JnStage {
 	double t, kx, kv;
 	const double *x, *v;
-} JnStage;
+	double weight;       ///< w; 0 stands for 1
+	const double* load;  ///< [N]; NULL: none. Of the first point alone
+	const double* held;  ///< accelerations of the held entries, 0 elsewhere; NULL: those prescribed at t
+	const JnStage* next; ///< one more point whose weighted force is added; NULL: none
+};
 
 /// Solve a stage. On exit s is the stage state and a its acceleration [m/s^2]. Returns JN_NOT_CONVERGED, JN_INDEFINITE or JN_NOT_FINITE as outcomes.
 JnStatus jn_stage_solve(JnIntegrator* integrator, JnSystem* sys, const JnStage* stage, JnState* s, JnVec a,

@@ -4,6 +4,7 @@
 //   v~ = v + dt sum_{j<i} a_ij V_j,   x~ = x + dt sum_{j<i} a_ij U_j + h v~
 //   M V_i = f(t + c_i dt, x~ + h^2 V_i, v~ + h V_i),   U_i = v~ + h V_i
 // and  x+ = x + dt sum b_i U_i,  v+ = v + dt sum b_i V_i,  which is the last stage itself when b = last row of A.
+#include "integrate/dirk.h"
 #include "base/space.h"
 #include "integrate/dirk_tableau.h"
 #include "integrate/integrator.h"
@@ -85,8 +86,9 @@ static JnStatus dirk_step(JnIntegrator* self, JnStep* step) {
 
 // force_weight: a_ii^2 of the last implicit stage (math of the force-error controller, w for a method with that stage).
 #define DIRK(method, p, diagonal, words)                                                                               \
-	static const JnIntegratorType method = {                                                                           \
+	const JnIntegratorType jn_##method = {                                                                             \
 		.row = {.name = #method, .doc = words},                                                                        \
+		.needs = JN_NEEDS_TANGENT,                                                                                     \
 		.order = p,                                                                                                    \
 		.force_weight = (diagonal) * (diagonal),                                                                       \
 		.vectors = VECTORS,                                                                                            \
@@ -109,11 +111,3 @@ DIRK(trapezoid, 2, 0.5, "one solve; no numerical damping, Newmark with beta = 1/
 DIRK(esdirk324, 3, 0.4358665215084590, "Kennedy, Carpenter 2019: three solves, third order, stage order two")
 DIRK(esdirk325, 3, 0.225, "Kennedy, Carpenter 2019: four solves, third order, small phase error")
 DIRK(esdirk436, 4, 0.25, "Kennedy, Carpenter 2019: five solves, fourth order, the most accurate here per solve")
-
-static const JnRow* const rows[] = {
-	&backward_euler.row, &sdirk2.row,     &sdirk3.row,     &tr_bdf2.row,    &tr_bdf2_b.row,
-	&sdirk_ncs23.row,    &sdirk_nc34.row, &sdirk_3345.row, &sdirk_4347.row, &implicit_midpoint.row,
-	&trapezoid.row,      &esdirk324.row,  &esdirk325.row,  &esdirk436.row,
-};
-
-const JnRowList jn_integrator_list = {.noun = "integrator", .rows = rows, .count = sizeof rows / sizeof *rows};

@@ -2,12 +2,28 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/log.h"
 #include "integrate/stage.h"
 
 static int vector_count(const JnIntegratorType* type) {
 	return type->vectors + JN_STAGE_VECTORS;
+}
+
+JnStatus jn_integrator_accepts(const JnIntegratorType* type, const JnSystem* sys) {
+	if ((type->needs & JN_NEEDS_DIAGONAL_MASS) != 0 && !sys->mass_is_diagonal)
+		return jn_error(JN_BAD_INPUT,
+						"integrator.method: %s is explicit and needs a diagonal mass matrix; set mass: lumped in every "
+						"body (--set bodies[0].mass=lumped), or choose an implicit method",
+						type->row.name);
+	if ((type->needs & JN_NEEDS_TANGENT) != 0 && (sys->ops->linearize == NULL || sys->ops->matrix == NULL))
+		return jn_error(
+			JN_BAD_INPUT,
+			"integrator.method: %s needs the tangent of the forces, which this system does not give; choose "
+			"an explicit method",
+			type->row.name);
+	return JN_OK;
 }
 
 JnIntegrator* jn_integrator_create(const JnVariant* choice, const JnNewtonDef* newton, JnSpace* space) {
@@ -22,7 +38,8 @@ JnIntegrator* jn_integrator_create(const JnVariant* choice, const JnNewtonDef* n
 	self->space = space;
 	const int count = vector_count(self->type);
 	self->vectors = calloc((size_t)count, sizeof *self->vectors);
-	bool is_complete = self->vectors != NULL;
+	if (self->type->memory_size > 0) self->memory = calloc(1, self->type->memory_size);
+	bool is_complete = self->vectors != NULL && (self->memory != NULL || self->type->memory_size == 0);
 	for (int i = 0; is_complete && i < count; ++i) {
 		self->vectors[i] = space->ops->create(space);
 		is_complete = self->vectors[i] != NULL;
@@ -37,6 +54,7 @@ void jn_integrator_destroy(JnIntegrator* self) {
 	for (int i = 0; self->vectors != NULL && i < vector_count(self->type); ++i)
 		self->space->ops->destroy(self->space, self->vectors[i]);
 	free(self->vectors);
+	free(self->memory);
 	free(self);
 }
 
@@ -47,7 +65,7 @@ void jn_integrator_forget(JnIntegrator* self) {
 
 void jn_integrator_reset(JnIntegrator* self) {
 	jn_integrator_forget(self);
-	if (self->type->reset != NULL) self->type->reset(self);
+	if (self->memory != NULL) memset(self->memory, 0, self->type->memory_size);
 }
 
 JnStatus jn_acceleration(JnIntegrator* self, JnSystem* sys, JnState* s, JnVec a) {

@@ -13,6 +13,9 @@ extern const JnKey jn_newton_keys[];       ///< of JnNewtonDef
 JnIntegrator* jn_integrator_create(const JnVariant* choice, const JnNewtonDef* newton, JnSpace* space);
 void jn_integrator_destroy(JnIntegrator* integrator);
 
+/// JN_OK when the method can step the system; else JN_BAD_INPUT after a message that says what is missing and what to set.
+JnStatus jn_integrator_accepts(const JnIntegratorType* type, const JnSystem* sys);
+
 /// Forget the kept tangent: the next stage makes a new one.
 void jn_integrator_forget(JnIntegrator* integrator);
 

@@ -1,4 +1,5 @@
-// The stage problem  r(a) = f(t, x + kx a, v + kv a) - M a = 0,  with  -dr/da = A = M + kv D + kx K.
+// The stage problem  r(a) = f(t, x + kx a, v + kv a) - M a = 0,  with  -dr/da = A = M + kv D + kx K  (with several
+// points: the weighted sum of their forces, and of their kv and kx).
 //
 // root     Newton on the residual with a backtracking line search on its norm. A tangent and its factor are kept, over
 //          iterations, stages and steps, while they serve: between refreshes the iteration is Broyden's (good) method in
@@ -34,23 +35,49 @@ static JnSpace* space_of(const Stage* stage) {
 	return stage->sys->space;
 }
 
-// s = (t, x + kx a, v + kv a) with driven nodes where they belong; r = f(s) - M a; its norm.
+static double weight_of(const JnStage* point) {
+	return point->weight != 0 ? point->weight : 1;
+}
+
+// s = (t, x + kx a, v + kv a) with driven nodes where they belong; f = its force.
+static JnStatus evaluate_point(Stage* stage, const JnStage* point, JnVec f) {
+	JnSpace* space = space_of(stage);
+	JnState* s = stage->s;
+	s->t = point->t;
+	space->ops->combine(space, s->x, 2, (JnTerm[]){{1, point->x}, {point->kx, stage->a}});
+	space->ops->combine(space, s->v, 2, (JnTerm[]){{1, point->v}, {point->kv, stage->a}});
+	stage->sys->ops->prescribe(stage->sys, s, stage->problem->held == NULL ? stage->a : NULL);
+	jn_state_touch(space, s);
+	return stage->sys->ops->force(stage->sys, s, f);
+}
+
+// r = load + sum of weighted forces - M a, and its norm.
 static JnStatus evaluate(Stage* stage, double* norm) {
 	JnSpace* space = space_of(stage);
-	const JnStage* p = stage->problem;
-	JnState* s = stage->s;
-	s->t = p->t;
-	space->ops->combine(space, s->x, 2, (JnTerm[]){{1, p->x}, {p->kx, stage->a}});
-	space->ops->combine(space, s->v, 2, (JnTerm[]){{1, p->v}, {p->kv, stage->a}});
-	stage->sys->ops->prescribe(stage->sys, s, stage->a);
-	jn_state_touch(space, s);
-	JN_TRY(stage->sys->ops->force(stage->sys, s, stage->residual));
-	JnVec inertia = stage->work[JN_STAGE_MASS];
-	stage->mass->ops->apply(stage->mass, stage->a, inertia);
-	space->ops->combine(space, stage->residual, 2, (JnTerm[]){{1, stage->residual}, {-1, inertia}});
-	stage->sys->ops->hold(stage->sys, stage->residual);
-	*norm = sqrt(space->ops->dot(space, stage->residual, stage->residual));
+	const JnStage* first = stage->problem;
+	JnVec r = stage->residual, work = stage->work[JN_STAGE_MASS];
+	JN_TRY(evaluate_point(stage, first, r));
+	if (weight_of(first) != 1) space->ops->combine(space, r, 1, (JnTerm[]){{weight_of(first), r}});
+	for (const JnStage* point = first->next; point != NULL; point = point->next) {
+		JN_TRY(evaluate_point(stage, point, work));
+		space->ops->combine(space, r, 2, (JnTerm[]){{1, r}, {weight_of(point), work}});
+	}
+	stage->mass->ops->apply(stage->mass, stage->a, work);
+	const JnTerm terms[] = {{1, r}, {-1, work}, {1, first->load}};
+	space->ops->combine(space, r, first->load != NULL ? 3 : 2, terms);
+	stage->sys->ops->hold(stage->sys, r);
+	*norm = sqrt(space->ops->dot(space, r, r));
 	return isfinite(*norm) ? JN_OK : JN_NOT_FINITE;
+}
+
+// The matrix -dr/da, with the tangent of one state for all points.
+static JnStatus stage_matrix(Stage* stage, JnMatrix** out) {
+	JnShift shift = {.mass = 1};
+	for (const JnStage* point = stage->problem; point != NULL; point = point->next) {
+		shift.damping += weight_of(point) * point->kv;
+		shift.stiffness += weight_of(point) * point->kx;
+	}
+	return stage->sys->ops->matrix(stage->sys, shift, out);
 }
 
 static JnStatus refresh(Stage* stage) {
@@ -79,8 +106,7 @@ static void apply_secants(Stage* stage, JnVec z) {
 
 static JnStatus newton_direction(Stage* stage) {
 	JnMatrix* matrix = NULL;
-	const JnShift shift = {.mass = 1, .damping = stage->problem->kv, .stiffness = stage->problem->kx};
-	JN_TRY(stage->sys->ops->matrix(stage->sys, shift, &matrix));
+	JN_TRY(stage_matrix(stage, &matrix));
 	JN_TRY(matrix->ops->solve(matrix, stage->residual, stage->step));
 	apply_secants(stage, stage->step);
 	return JN_OK;
@@ -143,8 +169,7 @@ static bool refresh_pays(Stage* stage, double contraction) {
 	if (stage->self->newton.reuse == REUSE_NEVER || contraction >= 0.9 || stage->secants >= JN_STAGE_SECANTS)
 		return true;
 	JnMatrix* matrix = NULL;
-	const JnShift shift = {.mass = 1, .damping = stage->problem->kv, .stiffness = stage->problem->kx};
-	if (stage->sys->ops->matrix(stage->sys, shift, &matrix) != JN_OK) return true;
+	if (stage_matrix(stage, &matrix) != JN_OK) return true;
 	const double left = log(stage->tolerance / stage->norm) / log(contraction);
 	return left > 2 + matrix->refresh_cost;
 }
@@ -157,8 +182,7 @@ static JnStatus first_tangent(Stage* stage) {
 	if (self->linearized == 0 || self->newton.reuse == REUSE_NEVER) return refresh(stage);
 	if (self->linearized > self->step_stamp) return JN_OK;
 	JnMatrix* matrix = NULL;
-	const JnShift shift = {.mass = 1, .damping = stage->problem->kv, .stiffness = stage->problem->kx};
-	JN_TRY(stage->sys->ops->matrix(stage->sys, shift, &matrix));
+	JN_TRY(stage_matrix(stage, &matrix));
 	return matrix->is_factored && self->excess < matrix->refresh_cost ? JN_OK : refresh(stage);
 }
 
@@ -208,6 +232,9 @@ static void first_guess(Stage* stage) {
 	} else {
 		space->ops->combine(space, stage->a, 1, (JnTerm[]){{1, recent[0]}});
 	}
+	if (stage->problem->held == NULL) return;
+	stage->sys->ops->hold(stage->sys, stage->a);
+	space->ops->combine(space, stage->a, 2, (JnTerm[]){{1, stage->a}, {1, stage->problem->held}});
 }
 
 static void keep_solution(Stage* stage) {

@@ -37,13 +37,17 @@ static double typical_force(JnModelSystem* sys) {
 
 static JnStatus begin(JnSystem* base, const JnState* start) {
 	JnModelSystem* sys = of(base);
+	if (sys->damping_at_rest && sys->damping_stamp == 0) {
+		jn_assembly_freeze(sys->assembly, sys->model->rest);
+		make_damping(sys, sys->model->rest, start->stamp);
+	}
+	const bool damping_follows = sys->damping != NULL && !sys->damping_at_rest;
 	if (jn_assembly_freeze(sys->assembly, start->x)) {
 		sys->internal_stamp = 0;
 		sys->stiffness_stamp = 0;
+		if (damping_follows) sys->damping_stamp = 0;
 	}
-	const bool must_update = sys->damping != NULL && (sys->damping_stamp == 0 || !sys->damping_at_rest);
-	if (must_update && sys->damping_stamp != start->stamp)
-		make_damping(sys, sys->damping_at_rest ? sys->model->rest : start->x, start->stamp);
+	if (damping_follows && sys->damping_stamp != start->stamp) make_damping(sys, start->x, start->stamp);
 	update_internal(sys, start);
 	base->force_scale = typical_force(sys);
 	return JN_OK;
@@ -97,6 +101,7 @@ static double energy(JnSystem* base, const JnState* s) {
 
 static JnStatus linearize(JnSystem* base, const JnState* s) {
 	JnModelSystem* sys = of(base);
+	if (sys->damping_is_current && sys->damping_stamp != s->stamp) make_damping(sys, s->x, s->stamp);
 	const bool is_constant = base->is_linear_in_step && sys->stiffness_stamp != 0;
 	if (sys->stiffness_stamp == s->stamp || is_constant) return JN_OK;
 	jn_assembly_tangent(sys->assembly, s->x, JN_EXACT, NULL, sys->stiffness);
@@ -155,6 +160,8 @@ static JnStatus allocate(JnModelSystem* sys) {
 	JN_NEW(arena, sys->beta, model->body_count);
 	for (int k = 0; k < 3 * model->node_count; ++k) sys->external[k] = model->nodal_mass[k / 3] * model->gravity[k % 3];
 	sys->base.is_linear_in_step = true;
+	sys->base.mass_is_diagonal = model->mass_is_diagonal;
+	for (int i = 0; i < model->held_count; ++i) sys->base.depends_on_time |= model->held_list[i].motion != NULL;
 	for (int b = 0; b < model->body_count; ++b) {
 		const JnBody* body = &model->bodies[b];
 		sys->beta[b] = body->damping.beta;

@@ -31,6 +31,7 @@ static JnStatus create_parts(JnSim* sim) {
 	JN_TRY(jn_model_create(&def->model, sim->threads, &sim->model));
 	sim->sys = jn_model_system(sim->model);
 	sim->sys->report = &sim->report;
+	JN_TRY(jn_integrator_accepts((const JnIntegratorType*)def->integrator.row, sim->sys));
 	JN_TRY(jn_state_create(sim->sys->space, &sim->start));
 	JN_TRY(jn_state_create(sim->sys->space, &sim->end));
 	sim->integrator = jn_integrator_create(&def->integrator, &def->newton, sim->sys->space);
