@@ -56,7 +56,7 @@ typedef struct JnTerm {
 typedef struct JnState {
 	double t;       ///< time [s]
 	JnVec x, v;     ///< positions [m] and velocities [m/s]
-	uint64_t stamp; ///< renewed by jn_state_touch() at every edit; equal stamps mean equal bytes
+	uint64_t stamp; ///< renewed by jn_state_touch() at every edit of t or x; equal stamps mean equal t and x
 } JnState;
 
 /// What one step, or one attempt, has cost. Counts, summed over its stages.

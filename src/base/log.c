@@ -10,18 +10,22 @@ static void write_to_stderr(void* user, JnLogLevel level, const char* message) {
 	fprintf(stderr, "jounce: %s: %s\n", level == JN_LOG_ERROR ? "error" : "warning", message);
 }
 
-static JnLogSink current_sink = write_to_stderr;
-static void* current_user = NULL;
+static JnLog current = {.sink = write_to_stderr};
 
 void jn_log_set_sink(JnLogSink sink, void* user) {
-	current_sink = sink != NULL ? sink : write_to_stderr;
-	current_user = sink != NULL ? user : NULL;
+	current = sink != NULL ? (JnLog){sink, user} : (JnLog){.sink = write_to_stderr};
+}
+
+JnLog jn_log_swap(JnLog log) {
+	const JnLog before = current;
+	current = log;
+	return before;
 }
 
 static void send(JnLogLevel level, const char* format, va_list arguments) {
 	char message[2048];
 	vsnprintf(message, sizeof message, format, arguments);
-	current_sink(current_user, level, message);
+	current.sink(current.user, level, message);
 }
 
 JnStatus jn_error(JnStatus status, const char* format, ...) {

@@ -10,4 +10,13 @@ JnStatus jn_error(JnStatus status, const char* format, ...) __attribute__((forma
 void jn_warn(const char* format, ...) __attribute__((format(printf, 1, 2)));
 void jn_info(const char* format, ...) __attribute__((format(printf, 1, 2)));
 
+/// Where messages go.
+typedef struct JnLog {
+	JnLogSink sink;
+	void* user;
+} JnLog;
+
+/// Send messages elsewhere; returns where they went before, to be put back. For layers that add what they know.
+JnLog jn_log_swap(JnLog log);
+
 #endif
