@@ -162,9 +162,34 @@ struct JnSystem {
 	JnReport* report;       ///< where the system counts its work; set by whoever steps it, never NULL during a step
 };
 
+/// Most unknowns of a system made of callbacks: its matrices are dense.
+#define JN_USER_SYSTEM_LIMIT 2000
+
+/// Your own equations M a = f(t, x, v). Callbacks return 0, or anything else when they cannot answer (the step then fails
+/// as one whose forces are not finite). All vectors have `count` entries, all matrices count * count, row by row.
+typedef struct JnUserSystemDef {
+	int count;  ///< unknowns, 1 .. JN_USER_SYSTEM_LIMIT
+	void* user; ///< handed to every callback
+	int (*force)(void* user, double t, const double* x, const double* v, double* f); ///< required
+	double (*energy)(void* user, double t, const double* x);                         ///< potential; NULL: none
+	/// K = -df/dx and D = -df/dv; write every entry. NULL: see tangent_product.
+	int (*tangent)(void* user, double t, const double* x, const double* v, double* stiffness, double* damping);
+	/// Kp and Dp, products with a vector p. NULL: K and D come from central differences of the force.
+	int (*tangent_product)(void* user, double t, const double* x, const double* v, const double* p, double* stiffness_p,
+						   double* damping_p);
+	const double* mass;   ///< M, copied; NULL: the identity. Need not be diagonal, but explicit methods ask for that
+	bool depends_on_time; ///< f changes with t at fixed x and v
+} JnUserSystemDef;
+
+/// A system of callbacks, for jn_sim_create_for. JN_BAD_INPUT after a message when the definition is unusable. Free with
+/// jn_user_system_destroy, after the simulations that use it.
+JnStatus jn_user_system_create(const JnUserSystemDef* def, JnSystem** sys);
+void jn_user_system_destroy(JnSystem* sys);
+
 // ---- integrators ----
 
 typedef struct JnIntegrator JnIntegrator;
+struct JnTableauProperties; // src/integrate/tableau.h
 
 /// An attempt at a step: from `start`, which is const, to `end`, over `dt`.
 typedef struct JnStep {
@@ -184,12 +209,14 @@ typedef enum JnNeeds {
 
 typedef struct JnIntegratorType {
 	JnRow row;
-	int needs;                                    ///< JnNeeds, combined by |
-	int order;                                    ///< classical order
-	double force_weight;                          ///< w in eps = w dt^2 |M^-1 (F - F~)|, for the force-error controller
-	int vectors;                                  ///< work vectors that a step needs
-	size_t memory_size;                           ///< bytes of JnIntegrator.memory; zero at the start and after a reset
-	const void* table;                            ///< coefficients, in the family's own form
+	int needs;           ///< JnNeeds, combined by |
+	int order;           ///< classical order
+	double force_weight; ///< w in eps = w dt^2 |M^-1 (F - F~)|, for the force-error controller
+	int vectors;         ///< work vectors that a step needs
+	size_t memory_size;  ///< bytes of JnIntegrator.memory; zero at the start and after a reset
+	const void* table;   ///< coefficients, in the family's own form
+	/// What follows from the coefficients; NULL: jn_integrator_properties measures on an oscillator instead.
+	void (*properties)(const void* table, struct JnTableauProperties* out);
 	JnStatus (*step)(JnIntegrator*, JnStep*);     ///< pure: the same start gives the same end
 	void (*commit)(JnIntegrator*, const JnStep*); ///< keep history; NULL for one-step methods
 } JnIntegratorType;

@@ -73,4 +73,4 @@ static const JnRow* const law_rows[] = {
 #define LAW_POINTER(law, frozen_reals, is_convex) &jn_law_##law.row,
 	JN_SOLID_LAWS(LAW_POINTER)};
 
-const JnRowList jn_law_list = {"material law", law_rows, JN_SOLID_LAW_COUNT};
+const JnRowList jn_law_list = {"material", law_rows, JN_SOLID_LAW_COUNT};

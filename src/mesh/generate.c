@@ -80,13 +80,13 @@ static void put_cells(const JnBoxDef* def, const Grid* grid, JnMesh* mesh) {
 	}
 }
 
-JnStatus jn_generate_box(const JnBoxDef* def, JnArena* arena, JnMesh* mesh) {
+static JnStatus generate(const JnBoxDef* def, const char* what, JnArena* arena, JnMesh* mesh) {
 	const int cells_a_hex = def->element == JN_HEX8 ? 1 : 6;
 	const double cells = (double)def->cells[0] * def->cells[1] * def->cells[2] * cells_a_hex;
 	if (cells > MOST_CELLS) {
-		return jn_error(JN_BAD_INPUT, "a box of %d x %d x %d hexahedra has %.3g %s cells, more than %.0g; use fewer",
-						def->cells[0], def->cells[1], def->cells[2], cells, jn_shape_info[def->element].name,
-						MOST_CELLS);
+		return jn_error(
+			JN_BAD_INPUT, "%s.cells: %d x %d x %d hexahedra are %.3g cells of %s, more than %.0g; use fewer", what,
+			def->cells[0], def->cells[1], def->cells[2], cells, jn_shape_info[def->element].name, MOST_CELLS);
 	}
 	Grid grid = {.refine = def->element == JN_TET10 ? 2 : 1};
 	for (int a = 0; a < 3; a++) grid.points[a] = def->cells[a] * grid.refine + 1;
@@ -98,6 +98,10 @@ JnStatus jn_generate_box(const JnBoxDef* def, JnArena* arena, JnMesh* mesh) {
 	place_nodes(def, &grid, mesh);
 	put_cells(def, &grid, mesh);
 	return JN_OK;
+}
+
+JnStatus jn_generate_box(const JnBoxDef* def, JnArena* arena, JnMesh* mesh) {
+	return generate(def, "box", arena, mesh);
 }
 
 static const char* const element_names[] = {[JN_TET4] = "tet4", [JN_TET10] = "tet10", [JN_HEX8] = "hex8", NULL};
@@ -132,8 +136,8 @@ static const JnKey box_keys[] = {
 	{.name = NULL},
 };
 
-static JnStatus generate_box(const void* options, JnArena* arena, JnMesh* mesh) {
-	return jn_generate_box(options, arena, mesh);
+static JnStatus generate_box(const void* options, const char* what, JnArena* arena, JnMesh* mesh) {
+	return generate(options, what, arena, mesh);
 }
 
 static const JnShapeType box_type = {

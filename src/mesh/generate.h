@@ -17,7 +17,8 @@ typedef struct JnBoxDef {
 /// The row of a generated shape: its generator fills a mesh, allocated from the arena.
 typedef struct JnShapeType {
 	JnRow row;
-	JnStatus (*generate)(const void* options, JnArena* arena, JnMesh* mesh);
+	/// `what` is the key path of the shape, for messages.
+	JnStatus (*generate)(const void* options, const char* what, JnArena* arena, JnMesh* mesh);
 } JnShapeType;
 
 extern const JnRowList jn_shape_list;

@@ -53,11 +53,11 @@ static void divide_by_mass(const JnModel* model, double mass, const double* rhs,
 static JnStatus solve(JnMatrix* base, const double* rhs, JnVec out) {
 	JnModelMatrix* matrix = (JnModelMatrix*)base;
 	JnModelSystem* sys = (JnModelSystem*)base->sys;
-	++sys->base.report->solves;
 	if (!depends_on_state(matrix->shift) && sys->model->mass_is_diagonal) {
 		divide_by_mass(sys->model, matrix->shift.mass, rhs, out);
 		return JN_OK;
 	}
+	++sys->base.report->solves;
 	if (!matrix->base.is_factored) JN_TRY(factor(matrix));
 	return sys->solver->type->solve(sys->solver, matrix->slot, rhs, out);
 }

@@ -25,9 +25,11 @@ static JnStatus mesh_body(const JnBodyDef* def, int index, JnModel* model) {
 		(JnBody){.name = def->name, .damping = def->damping, .mass_form = def->mass, .first_node = model->node_count};
 	memcpy(body->velocity, def->velocity, sizeof body->velocity);
 	const JnShapeType* shape = (const JnShapeType*)def->shape.row;
-	JN_TRY(shape->generate(def->shape.options, &model->arena, &body->mesh));
+	char what[96];
+	snprintf(what, sizeof what, "bodies[%d].shape", index);
+	JN_TRY(shape->generate(def->shape.options, what, &model->arena, &body->mesh));
 	if (body->mesh.cell_count == 0 || body->mesh.node_count == 0)
-		return jn_error(JN_BAD_INPUT, "bodies[%d] '%s': its mesh has no cells", index, def->name);
+		return jn_error(JN_BAD_INPUT, "%s: the mesh of '%s' has no cells; give it some", what, def->name);
 	const size_t entries = (size_t)body->mesh.cell_count * (size_t)jn_shape_info[body->mesh.shape].nodes;
 	JN_NEW(&model->arena, body->cells, entries);
 	for (size_t k = 0; k < entries; ++k) body->cells[k] = body->mesh.cells[k] + body->first_node;
@@ -62,7 +64,7 @@ static JnStatus build_meshes(const JnItems* defs, JnModel* model) {
 static JnStatus axes_mask(const char* axes, const char* what, bool mask[3]) {
 	for (const char* c = axes; *c != '\0'; ++c) {
 		if (*c < 'x' || *c > 'z')
-			return jn_error(JN_BAD_INPUT, "%s.axes: '%s' has a letter other than x, y, z", what, axes);
+			return jn_error(JN_BAD_INPUT, "%s.axes: '%s' is more than x, y and z; use only these letters", what, axes);
 		mask[*c - 'x'] = true;
 	}
 	return *axes != '\0' ? JN_OK : jn_error(JN_BAD_INPUT, "%s.axes: empty; name at least one of x, y, z", what);
@@ -95,12 +97,13 @@ static JnStatus drive_nodes(const JnDriveDef* def, const char* what, const JnBod
 			if (def->others == 0) use_axis(axes, body, chosen, axis, 1);
 			continue;
 		}
-		if (type->check != NULL) JN_TRY(type->check(def->motion[axis].options));
+		snprintf(where, sizeof where, "%s.%c", what, 'x' + axis);
+		if (type->check != NULL) JN_TRY(type->check(def->motion[axis].options, where));
 		axes->motions[axes->motion_count] = &def->motion[axis];
 		use_axis(axes, body, chosen, axis, 2 + axes->motion_count++);
 		++driven;
 	}
-	return driven > 0 ? JN_OK : jn_error(JN_BAD_INPUT, "%s: no motion; give x, y or z, or use fix", what);
+	return driven > 0 ? JN_OK : jn_error(JN_BAD_INPUT, "%s: no axis has a motion; give x, y or z, or use fix", what);
 }
 
 static JnStatus constrain_body(const JnBodyDef* def, int index, const JnBody* body, JnArena* scratch, Axes* axes) {
@@ -122,7 +125,7 @@ static JnStatus list_held(const Axes* axes, JnModel* model) {
 	const int entries = 3 * model->node_count;
 	for (int k = 0; k < entries; ++k) model->held_count += axes->use[k] != 0;
 	if (model->held_count == entries)
-		return jn_error(JN_BAD_INPUT, "bodies: no free node is left; all %d are fixed or driven, so nothing can move",
+		return jn_error(JN_BAD_INPUT, "bodies: no node is free, all %d are fixed or driven; fix fewer, or fewer axes",
 						model->node_count);
 	JN_NEW(&model->arena, model->held, entries);
 	JN_NEW(&model->arena, model->held_list, model->held_count + 1);

@@ -47,12 +47,14 @@ static JnMotionValue keyframes_at(const void* options, double t) {
 	return (JnMotionValue){.x = points->data[points->count - 1][1]};
 }
 
-static JnStatus keyframes_check(const void* options) {
+static JnStatus keyframes_check(const void* options, const char* what) {
 	const JnPoints* points = &((const KeyframesDef*)options)->points;
-	if (points->count < 1) return jn_error(JN_BAD_INPUT, "keyframes: at least one [time, value] pair is needed");
+	if (points->count < 1)
+		return jn_error(JN_BAD_INPUT, "%s.points: empty; give at least one [time, displacement] pair", what);
 	for (int i = 1; i < points->count; ++i)
 		if (!(points->data[i][0] > points->data[i - 1][0]))
-			return jn_error(JN_BAD_INPUT, "keyframes: pair %d has time %g s, not after %g s; let the times rise", i + 1,
+			return jn_error(JN_BAD_INPUT,
+							"%s.points[%d]: its time %g s is not after the %g s before it; let times rise", what, i,
 							points->data[i][0], points->data[i - 1][0]);
 	return JN_OK;
 }

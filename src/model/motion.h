@@ -12,7 +12,8 @@ typedef struct JnMotionValue {
 typedef struct JnMotionType {
 	JnRow row;
 	JnMotionValue (*at)(const void* options, double t);
-	JnStatus (*check)(const void* options); ///< what bounds cannot say, such as rising times; NULL: nothing
+	/// What bounds cannot say, such as rising times, of the motion at the key path `what`. NULL: nothing to check.
+	JnStatus (*check)(const void* options, const char* what);
 } JnMotionType;
 
 extern const JnRowList jn_motion_list; ///< rows are &JnMotionType.row

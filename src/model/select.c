@@ -68,6 +68,8 @@ JnStatus jn_select_nodes(const JnSelectDef* def, const JnMesh* mesh, const char*
 	}
 	if (by_point) chosen[jn_select_nearest(mesh->nodes, mesh->node_count, def->nearest)] = true;
 	if (by_point || count > 0) return JN_OK;
-	return jn_error(JN_BAD_INPUT, "%s: no node lies there; the body spans [%g, %g] x [%g, %g] x [%g, %g] m", what,
-					bounds.min[0], bounds.max[0], bounds.min[1], bounds.max[1], bounds.min[2], bounds.max[2]);
+	return jn_error(
+		JN_BAD_INPUT,
+		"%s: no node lies there; choose nodes of the body, which spans [%g, %g] x [%g, %g] x [%g, %g] m at rest", what,
+		bounds.min[0], bounds.max[0], bounds.min[1], bounds.max[1], bounds.min[2], bounds.max[2]);
 }

@@ -48,8 +48,9 @@ static JnStatus begin(JnSystem* base, const JnState* start) {
 		if (damping_follows) sys->damping_stamp = 0;
 	}
 	if (damping_follows && sys->damping_stamp != start->stamp) make_damping(sys, start->x, start->stamp);
-	update_internal(sys, start);
-	base->force_scale = typical_force(sys);
+	if (base->force_scale == 0) update_internal(sys, start);
+	if (sys->internal_stamp == start->stamp)
+		base->force_scale = typical_force(sys); // else as before: no force for this alone
 	return JN_OK;
 }
 

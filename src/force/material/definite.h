@@ -28,7 +28,7 @@ JN_SHARED WideMask is_semidefinite(const WideTangent* A) {
 	return positive;
 }
 
-/// Add the eigenpairs that live on the stretches: modes sum_i e_i u_i v_i^T with e from the 3x3 block of B.
+/// The eigenpairs that live on the stretches: modes sum_i e_i u_i v_i^T with e from the 3x3 block of B.
 JN_INLINE void stretch_modes(const WideTangent* B, const WideSvd3* svd, Wide value[3], Wide mode[3][9]) {
 	const WideMat3 block = {{{B->at[0][0], B->at[4][0], B->at[8][0]},
 							 {B->at[4][0], B->at[4][4], B->at[8][4]},
@@ -46,7 +46,7 @@ JN_INLINE void stretch_modes(const WideTangent* B, const WideSvd3* svd, Wide val
 	}
 }
 
-/// Add the eigenpairs of axes i and j: modes u_i v_j^T +- u_j v_i^T, whose squared length 2 is taken out of the value.
+/// The eigenpairs of axes i and j: modes u_i v_j^T +- u_j v_i^T, whose squared length 2 is taken out of the value.
 JN_INLINE void shear_modes(const WideTangent* B, const WideSvd3* svd, int i, int j, Wide value[2], Wide mode[2][9]) {
 	const Wide p = B->at[3 * i + j][3 * i + j], q = B->at[3 * j + i][3 * i + j];
 	value[0] = 0.5 * (p + q);
