@@ -84,6 +84,10 @@ static JnStatus dirk_step(JnIntegrator* self, JnStep* step) {
 	return jn_state_check(self->space, step->end);
 }
 
+static void dirk_properties(const void* table, JnTableauProperties* out) {
+	*out = jn_tableau_properties(table);
+}
+
 // force_weight: a_ii^2 of the last implicit stage (math of the force-error controller, w for a method with that stage).
 #define DIRK(method, p, diagonal, words)                                                                               \
 	const JnIntegratorType jn_##method = {                                                                             \
@@ -93,6 +97,7 @@ static JnStatus dirk_step(JnIntegrator* self, JnStep* step) {
 		.force_weight = (diagonal) * (diagonal),                                                                       \
 		.vectors = VECTORS,                                                                                            \
 		.table = &jn_tableau_##method,                                                                                 \
+		.properties = dirk_properties,                                                                                 \
 		.step = dirk_step,                                                                                             \
 	};
 

@@ -217,7 +217,8 @@ static void find_dispersion(const Stability* r, JnTableauProperties* out) {
 }
 
 JnTableauProperties jn_tableau_properties(const JnTableau* tableau) {
-	JnTableauProperties out = {.stiffly_accurate = true, .first_explicit = tableau->a[0][0] == 0};
+	JnTableauProperties out = {
+		.stages = tableau->stages, .stiffly_accurate = true, .first_explicit = tableau->a[0][0] == 0};
 	const int last = tableau->stages - 1;
 	for (int i = 0; i <= last; i++) {
 		if (tableau->a[i][i] != 0) out.implicit_solves++;

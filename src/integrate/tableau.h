@@ -20,7 +20,8 @@ typedef struct JnTableau {
 /// Properties recomputed from the coefficients.
 typedef struct JnTableauProperties {
 	int order, stage_order; ///< by the rooted-tree conditions up to order 5, to 1e-13; C(q), at most the order
-	int implicit_solves;    ///< stages with a_ii != 0
+	int stages;
+	int implicit_solves; ///< stages with a_ii != 0
 	bool a_stable, l_stable, stiffly_accurate, first_explicit;
 	double r_infinity;    ///< lim R(z); INFINITY when deg P > deg Q, as for explicit methods
 	int dispersion_order; ///< q: nu - arg R(i nu) = constant nu^(q+1) + ...
