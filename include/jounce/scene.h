@@ -38,7 +38,11 @@ typedef struct JnScene JnScene;
 JnStatus jn_scene_load(const char* path, int set_count, const char* const sets[], JnScene** scene);
 void jn_scene_destroy(JnScene* scene);
 const JnSceneDef* jn_scene_def(const JnScene* scene);
-const char* jn_scene_path(const JnScene* scene);
+const char* jn_scene_path(const JnScene* scene); ///< as given to jn_scene_load
+
+/// Build the simulation of a scene, which must outlive it: jn_sim_create on its definitions, with messages that name the
+/// place in the file.
+JnStatus jn_scene_build(const JnScene* scene, int threads, JnSim** sim);
 
 /// How far a run is; given after every accepted step.
 typedef struct JnProgress {

@@ -24,6 +24,12 @@ typedef struct JnSim JnSim;
 JnStatus jn_sim_create(const JnSimDef* def, int threads, JnSim** sim);
 void jn_sim_destroy(JnSim* sim);
 
+/// The same for a system of your own (extend.h), from positions x and velocities v at t = 0, which are copied. `settings`
+/// is YAML with the keys duration, integrator, newton and step of a scene file:
+///   "{duration: 10 s, integrator: {method: newmark, beta: 0.25}, step: {dt: 1 ms}}"
+/// The system must outlive the simulation.
+JnStatus jn_sim_create_for(JnSystem* sys, const char* settings, const double* x, const double* v, JnSim** sim);
+
 /// Advance by one accepted step. JN_RUN_FAILED, after a message, when no admissible step works: the state is then still
 /// that of the last accepted step.
 JnStatus jn_sim_step(JnSim* sim);
@@ -31,7 +37,7 @@ JnStatus jn_sim_step(JnSim* sim);
 /// Has the whole duration been simulated?
 bool jn_sim_is_done(const JnSim* sim);
 
-JnModel* jn_sim_model(JnSim* sim);
+JnModel* jn_sim_model(JnSim* sim); ///< NULL for a system of the user's own
 const JnState* jn_sim_state(const JnSim* sim);
 long jn_sim_steps(const JnSim* sim);                  ///< accepted so far
 double jn_sim_last_dt(const JnSim* sim);              ///< size of the last accepted step [s]; 0 before the first

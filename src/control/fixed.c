@@ -41,15 +41,17 @@ static void go_on(const FixedDef* def, FixedMemory* memory) {
 }
 
 static JnStatus judge(JnController* controller, const JnStep* step, JnStatus outcome, JnVerdict* verdict) {
-	(void)step;
 	const FixedDef* def = controller->options;
 	FixedMemory* memory = controller->memory;
 	verdict->accepted = outcome == JN_OK;
-	if (!verdict->accepted && memory->level >= def->cuts) return JN_RUN_FAILED;
-	if (verdict->accepted)
+	if (verdict->accepted) {
 		go_on(def, memory);
-	else
-		cut(memory);
+	} else {
+		do { // the last step of a run may be shorter than its level: go below what has failed
+			if (memory->level >= def->cuts) return JN_RUN_FAILED;
+			cut(memory);
+		} while (size_at(def, memory->level) >= step->dt);
+	}
 	verdict->dt = size_at(def, memory->level);
 	return JN_OK;
 }

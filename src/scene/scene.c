@@ -2,14 +2,15 @@
 #include "jounce/scene.h"
 
 #include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/key.h"
 #include "base/log.h"
-#include "control/controller.h"
-#include "integrate/integrator.h"
+#include "scene/place.h"
 #include "scene/scene.h"
+#include "sim/sim_keys.h"
 #include "solve/solver.h"
 
 static const JnKey probe_keys[] = {
@@ -48,17 +49,8 @@ const JnKey jn_scene_keys[] = {
 	{.name = "name",
 	 .kind = JN_TEXT,
 	 .field = offsetof(JnSceneDef, name),
-	 .meaning = "of the scene; the file's name when absent"},
+	 .meaning = "of the scene and of its folder of results; the file's name when absent"},
 	{.name = "description", .kind = JN_TEXT, .field = offsetof(JnSceneDef, description), .meaning = "free text"},
-	{.name = "duration",
-	 .kind = JN_REAL,
-	 .field = offsetof(JnSceneDef, sim.duration),
-	 .required = true,
-	 .low = 0,
-	 .high = 1e9,
-	 .open = JN_OPEN_LOW,
-	 .unit = "s",
-	 .meaning = "simulated time"},
 	{.name = "gravity",
 	 .kind = JN_REAL3,
 	 .field = offsetof(JnSceneDef, sim.model.gravity),
@@ -72,25 +64,7 @@ const JnKey jn_scene_keys[] = {
 	 .keys = jn_body_keys,
 	 .size = sizeof(JnBodyDef),
 	 .meaning = "the deformable bodies"},
-	{.name = "integrator",
-	 .kind = JN_VARIANT,
-	 .field = offsetof(JnSceneDef, sim.integrator),
-	 .text = "sdirk2",
-	 .rows = &jn_integrator_list,
-	 .tag = "method",
-	 .meaning = "the time integration method"},
-	{.name = "newton",
-	 .kind = JN_OBJECT,
-	 .field = offsetof(JnSceneDef, sim.newton),
-	 .keys = jn_newton_keys,
-	 .meaning = "how implicit stages are solved"},
-	{.name = "step",
-	 .kind = JN_VARIANT,
-	 .field = offsetof(JnSceneDef, sim.step),
-	 .text = "fixed",
-	 .rows = &jn_controller_list,
-	 .tag = "controller",
-	 .meaning = "the time step and who chooses it"},
+	JN_SIM_KEY_ROWS(JnSceneDef, sim.),
 	{.name = "solver",
 	 .kind = JN_VARIANT,
 	 .field = offsetof(JnSceneDef, sim.model.solver),
@@ -112,36 +86,60 @@ const JnKey jn_scene_keys[] = {
 	{0},
 };
 
-// Names become parts of paths, columns and HDF5 groups.
-static JnStatus check_name(const char* path, const char* what, const char* name) {
-	for (const char* c = name; *c != '\0'; ++c)
-		if (!isalnum((unsigned char)*c) && *c != '_' && *c != '-')
-			return jn_error(JN_BAD_INPUT, "%s: %s: '%s' has the character '%c'; use letters, digits, _ and -", path,
-							what, name, *c);
-	return *name != '\0' ? JN_OK : jn_error(JN_BAD_INPUT, "%s: %s: empty; give it a name", path, what);
+enum { NAME_LIMIT = 64 }; // bytes
+
+static bool is_name_character(char c) {
+	return isalnum((unsigned char)c) || c == '_' || c == '-';
 }
 
-static JnStatus check_names(const char* path, const JnSceneDef* def) {
-	JN_TRY(check_name(path, "name", def->name));
-	const JnBodyDef* bodies = def->sim.model.bodies.data;
-	for (int i = 0; i < def->sim.model.bodies.count; ++i) JN_TRY(check_name(path, "bodies.name", bodies[i].name));
-	const JnProbeDef* probes = def->probes.data;
-	for (int i = 0; i < def->probes.count; ++i) {
-		JN_TRY(check_name(path, "probes.name", probes[i].name));
+// Names become parts of paths, columns and HDF5 groups.
+static JnStatus check_name(const char* what, const char* name) {
+	if (*name == '\0') return jn_error(JN_BAD_INPUT, "%s: is empty; use letters, digits, _ and -", what);
+	if (strlen(name) > NAME_LIMIT)
+		return jn_error(JN_BAD_INPUT, "%s: '%.20s...' is longer than %d letters; shorten it", what, name, NAME_LIMIT);
+	for (const char* c = name; *c != '\0'; ++c)
+		if (!is_name_character(*c))
+			return jn_error(JN_BAD_INPUT, "%s: '%s' is no plain name; use only letters, digits, _ and -", what, name);
+	return JN_OK;
+}
+
+static const char* body_name(const JnItems* items, int index) {
+	return ((const JnBodyDef*)items->data)[index].name;
+}
+
+static const char* probe_name(const JnItems* items, int index) {
+	return ((const JnProbeDef*)items->data)[index].name;
+}
+
+// All names of a list are plain and differ.
+static JnStatus check_list(const char* list, const JnItems* items, const char* (*name)(const JnItems*, int)) {
+	char what[64];
+	for (int i = 0; i < items->count; ++i) {
+		snprintf(what, sizeof what, "%s[%d].name", list, i);
+		JN_TRY(check_name(what, name(items, i)));
 		for (int j = 0; j < i; ++j)
-			if (strcmp(probes[i].name, probes[j].name) == 0)
-				return jn_error(JN_BAD_INPUT, "%s: probes[%d].name: '%s' is taken by probes[%d]; use another", path, i,
-								probes[i].name, j);
+			if (strcmp(name(items, i), name(items, j)) == 0)
+				return jn_error(JN_BAD_INPUT, "%s: '%s' is the name of %s[%d] already; use another", what,
+								name(items, i), list, j);
 	}
 	return JN_OK;
 }
 
-// The file's name without folder and extension.
+static JnStatus check_names(const JnSceneDef* def) {
+	JN_TRY(check_name("name", def->name));
+	JN_TRY(check_list("bodies", &def->sim.model.bodies, body_name));
+	return check_list("probes", &def->probes, probe_name);
+}
+
+// A scene without name is called after its file: without folder and extension, and what no name may hold becomes '_'.
 static const char* stem(const char* path, JnArena* arena) {
 	const char* slash = strrchr(path, '/');
 	char* name = jn_arena_text(arena, slash != NULL ? slash + 1 : path);
 	char* dot = name != NULL ? strrchr(name, '.') : NULL;
 	if (dot != NULL && dot != name) *dot = '\0';
+	for (char* c = name; c != NULL && *c != '\0'; ++c)
+		if (!is_name_character(*c)) *c = '_';
+	if (name != NULL && strlen(name) > NAME_LIMIT) name[NAME_LIMIT] = '\0';
 	return name;
 }
 
@@ -157,7 +155,11 @@ static JnStatus load(JnScene* scene, const char* path, int set_count, const char
 	JN_TRY(jn_keys_read(jn_scene_keys, scene->document.root, "", &scene->arena, &scene->def));
 	if (scene->def.name == NULL) scene->def.name = stem(path, &scene->arena);
 	if (scene->def.name == NULL) return JN_OUT_OF_MEMORY;
-	return check_names(path, &scene->def);
+	JnPlacing placing;
+	jn_placing_begin(&placing, &scene->document);
+	const JnStatus status = check_names(&scene->def);
+	jn_placing_end(&placing);
+	return status;
 }
 
 JnStatus jn_scene_load(const char* path, int set_count, const char* const sets[], JnScene** out) {
@@ -169,6 +171,14 @@ JnStatus jn_scene_load(const char* path, int set_count, const char* const sets[]
 		*out = scene;
 	else
 		jn_scene_destroy(scene);
+	return status;
+}
+
+JnStatus jn_scene_build(const JnScene* scene, int threads, JnSim** sim) {
+	JnPlacing placing;
+	jn_placing_begin(&placing, &scene->document);
+	const JnStatus status = jn_sim_create(&scene->def.sim, threads, sim);
+	jn_placing_end(&placing);
 	return status;
 }
 

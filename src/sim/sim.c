@@ -7,16 +7,20 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/key.h"
 #include "base/log.h"
 #include "base/parallel.h"
 #include "base/space.h"
 #include "control/controller.h"
 #include "integrate/integrator.h"
+#include "sim/sim_keys.h"
 
 struct JnSim {
 	const JnSimDef* def;
+	JnArena arena; // of settings given as text
+	JnSimDef settings;
 	int threads;
-	JnModel* model;
+	JnModel* model; // NULL when the system is the user's
 	JnSystem* sys;
 	JnIntegrator* integrator;
 	JnController* controller;
@@ -26,11 +30,9 @@ struct JnSim {
 	JnReport report;
 };
 
+// Everything but the system and its first state.
 static JnStatus create_parts(JnSim* sim) {
 	const JnSimDef* def = sim->def;
-	JN_TRY(jn_model_create(&def->model, sim->threads, &sim->model));
-	sim->sys = jn_model_system(sim->model);
-	sim->sys->report = &sim->report;
 	JN_TRY(jn_integrator_accepts((const JnIntegratorType*)def->integrator.row, sim->sys));
 	JN_TRY(jn_state_create(sim->sys->space, &sim->start));
 	JN_TRY(jn_state_create(sim->sys->space, &sim->end));
@@ -38,22 +40,68 @@ static JnStatus create_parts(JnSim* sim) {
 	sim->controller = jn_controller_create(&def->step);
 	if (sim->integrator == NULL || sim->controller == NULL) return JN_OUT_OF_MEMORY;
 	sim->next_dt = sim->controller->type->first(sim->controller);
-	jn_model_start(sim->model, 0, &sim->start);
+	return JN_OK;
+}
+
+static JnStatus begin_first_step(JnSim* sim) {
+	sim->sys->report = &sim->report;
 	return sim->sys->ops->begin(sim->sys, &sim->start);
 }
 
-JnStatus jn_sim_create(const JnSimDef* def, int threads, JnSim** out) {
-	*out = NULL;
-	JnSim* sim = calloc(1, sizeof *sim);
-	if (sim == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: simulation");
+static JnStatus create_with_model(JnSim* sim, const JnSimDef* def) {
 	sim->def = def;
-	sim->threads = threads > 0 ? threads : jn_threads_available();
-	const JnStatus status = create_parts(sim);
+	JN_TRY(jn_model_create(&def->model, sim->threads, &sim->model));
+	sim->sys = jn_model_system(sim->model);
+	JN_TRY(create_parts(sim));
+	jn_model_start(sim->model, 0, &sim->start);
+	return begin_first_step(sim);
+}
+
+static JnStatus create_for_system(JnSim* sim, JnSystem* sys, const char* settings, const double* x, const double* v) {
+	JnDocument document;
+	JN_TRY(jn_document_parse("settings", settings, &sim->arena, &document));
+	JN_TRY(jn_keys_read(jn_sim_keys, document.root, "", &sim->arena, &sim->settings));
+	sim->def = &sim->settings;
+	sim->sys = sys;
+	JN_TRY(create_parts(sim));
+	JnSpace* space = sys->space;
+	space->ops->combine(space, sim->start.x, 1, &(JnTerm){1, x});
+	space->ops->combine(space, sim->start.v, 1, &(JnTerm){1, v});
+	sys->ops->prescribe(sys, &sim->start, NULL);
+	jn_state_touch(space, &sim->start);
+	JN_TRY(jn_state_check(space, &sim->start) == JN_OK
+			   ? JN_OK
+			   : jn_error(JN_BAD_INPUT, "a start position or velocity is not finite"));
+	return begin_first_step(sim);
+}
+
+static JnSim* allocate(int threads) {
+	JnSim* sim = calloc(1, sizeof *sim);
+	if (sim == NULL)
+		jn_error(JN_OUT_OF_MEMORY, "out of memory: simulation");
+	else
+		sim->threads = threads > 0 ? threads : jn_threads_available();
+	return sim;
+}
+
+static JnStatus deliver(JnSim* sim, JnStatus status, JnSim** out) {
 	if (status == JN_OK)
 		*out = sim;
 	else
 		jn_sim_destroy(sim);
 	return status;
+}
+
+JnStatus jn_sim_create(const JnSimDef* def, int threads, JnSim** out) {
+	*out = NULL;
+	JnSim* sim = allocate(threads);
+	return sim != NULL ? deliver(sim, create_with_model(sim, def), out) : JN_OUT_OF_MEMORY;
+}
+
+JnStatus jn_sim_create_for(JnSystem* sys, const char* settings, const double* x, const double* v, JnSim** out) {
+	*out = NULL;
+	JnSim* sim = allocate(1);
+	return sim != NULL ? deliver(sim, create_for_system(sim, sys, settings, x, v), out) : JN_OUT_OF_MEMORY;
 }
 
 void jn_sim_destroy(JnSim* sim) {
@@ -65,6 +113,7 @@ void jn_sim_destroy(JnSim* sim) {
 		jn_state_destroy(sim->sys->space, &sim->end);
 	}
 	jn_model_destroy(sim->model);
+	jn_arena_free(&sim->arena);
 	free(sim);
 }
 
@@ -111,7 +160,7 @@ JnStatus jn_sim_step(JnSim* sim) {
 		} else if (sim->integrator->type->commit != NULL) {
 			sim->integrator->type->commit(sim->integrator, &step);
 		}
-		sim->last_dt = step.dt;
+		if (verdict.accepted) sim->last_dt = step.dt;
 		sim->next_dt = verdict.dt;
 	}
 	const JnState swap = sim->start;

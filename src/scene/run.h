@@ -1,0 +1,34 @@
+/// @file run.h
+/// A run in progress, shared by run.c (the loop) and run_info.c (what is recorded about it).
+#ifndef JN_SCENE_RUN_H
+#define JN_SCENE_RUN_H
+
+#include "base/log.h"
+#include "record/recorder.h"
+#include "scene/scene.h"
+
+typedef struct JnRun {
+	const JnScene* scene;
+	const JnRunOptions* options;
+	JnArena arena;
+	JnSim* sim;
+	JnRecordInfo info;
+	JnRecorders recorders;
+	JnRecordEnd end;
+	int* probe_nodes;
+	double* values; ///< one a column
+	double total_at_start;
+	double began;      ///< clock when stepping began [s]
+	double next_frame; ///< time of the next frame that is due [s]
+	bool frame_is_written, recorders_are_open;
+	JnLog outer;        ///< where messages go on to
+	char message[1024]; ///< the last error
+} JnRun;
+
+/// Fill run->info: all that stays constant over a run.
+JnStatus jn_run_describe(JnRun* run);
+
+/// Fill run->values with the row of the present state, and the energy errors of run->end.
+void jn_run_measure(JnRun* run);
+
+#endif

@@ -1,0 +1,140 @@
+// What a run records: its columns, bodies and text, and the row of numbers of each step.
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "model/model.h"
+#include "scene/run.h"
+#include "solve/blas.h"
+
+// The columns that every run has, in this order; then three for each probe.
+static const JnColumn fixed_columns[] = {
+	{"step", "", true},
+	{"t", "s", false},
+	{"dt", "s", false},
+	{"kinetic", "J", false},
+	{"elastic", "J", false},
+	{"gravity", "J", false},
+	{"total", "J", false},
+	{"specific_error", "J/kg", false},
+	{"newton", "", true},
+	{"factorizations", "", true},
+	{"solves", "", true},
+	{"rejected", "", true},
+	{"momentum.x", "kg m/s", false},
+	{"momentum.y", "kg m/s", false},
+	{"momentum.z", "kg m/s", false},
+	{"angular.x", "kg m^2/s", false},
+	{"angular.y", "kg m^2/s", false},
+	{"angular.z", "kg m^2/s", false},
+};
+enum { FIXED_COLUMNS = sizeof fixed_columns / sizeof *fixed_columns };
+
+static JnStatus name_columns(JnRun* run) {
+	const JnItems* probes = &run->scene->def.probes;
+	JnColumn* columns;
+	run->info.column_count = FIXED_COLUMNS + 3 * probes->count;
+	JN_NEW(&run->arena, columns, run->info.column_count);
+	JN_NEW(&run->arena, run->values, run->info.column_count);
+	JN_NEW(&run->arena, run->probe_nodes, probes->count + 1);
+	memcpy(columns, fixed_columns, sizeof fixed_columns);
+	for (int i = 0; i < probes->count; ++i) {
+		const JnProbeDef* probe = (const JnProbeDef*)probes->data + i;
+		run->probe_nodes[i] = jn_model_nearest(jn_sim_model(run->sim), probe->at);
+		for (int axis = 0; axis < 3; ++axis) {
+			char name[256];
+			snprintf(name, sizeof name, "probe.%s.%c", probe->name, 'x' + axis);
+			JnColumn* column = &columns[FIXED_COLUMNS + 3 * i + axis];
+			*column = (JnColumn){.name = jn_arena_text(&run->arena, name), .unit = "m"};
+			if (column->name == NULL) return JN_OUT_OF_MEMORY;
+		}
+	}
+	run->info.columns = columns;
+	return JN_OK;
+}
+
+static JnStatus list_bodies(JnRun* run, const JnModel* model) {
+	JnRecordBody* bodies;
+	JN_NEW(&run->arena, bodies, model->body_count);
+	for (int b = 0; b < model->body_count; ++b) {
+		const JnBody* body = &model->bodies[b];
+		bodies[b] = (JnRecordBody){.name = body->name,
+								   .shape = body->mesh.shape,
+								   .first_node = body->first_node,
+								   .node_count = body->mesh.node_count,
+								   .cell_count = body->mesh.cell_count,
+								   .cells = body->cells};
+	}
+	run->info.body_count = model->body_count;
+	run->info.bodies = bodies;
+	return JN_OK;
+}
+
+// The file's text with the overrides as comments at its end.
+static JnStatus annotate_text(JnRun* run) {
+	const JnScene* scene = run->scene;
+	const size_t text_length = strlen(scene->document.text);
+	const bool is_open = text_length > 0 && scene->document.text[text_length - 1] != '\n';
+	size_t length = text_length + 2;
+	for (int i = 0; i < scene->set_count; ++i) length += strlen(scene->sets[i]) + 16;
+	char* text;
+	JN_NEW(&run->arena, text, length);
+	char* end = text + snprintf(text, length, "%s%s", scene->document.text, is_open ? "\n" : "");
+	for (int i = 0; i < scene->set_count; ++i)
+		end += snprintf(end, length - (size_t)(end - text), "# --set %s\n", scene->sets[i]);
+	run->info.scene_text = text;
+	return JN_OK;
+}
+
+JnStatus jn_run_describe(JnRun* run) {
+	const JnModel* model = jn_sim_model(run->sim);
+	char* blas;
+	JN_NEW(&run->arena, blas, 96);
+	jn_blas_name(blas, 96);
+	run->info.directory = run->options->directory;
+	run->info.scene_name = run->scene->def.name;
+	run->info.scene_path = run->scene->document.path;
+	run->info.method = run->scene->def.sim.integrator.row->name;
+	run->info.node_count = model->node_count;
+	run->info.nodes = model->rest;
+	run->info.wants_plots = run->scene->def.record.plots;
+	run->info.total_mass = model->total_mass;
+	run->info.threads = jn_sim_threads(run->sim);
+	run->info.simd_width = jn_kernel_best_width();
+	run->info.blas = blas;
+	JN_TRY(annotate_text(run));
+	JN_TRY(list_bodies(run, model));
+	return name_columns(run);
+}
+
+void jn_run_measure(JnRun* run) {
+	const JnReport* report = jn_sim_last_report(run->sim);
+	const JnState* state = jn_sim_state(run->sim);
+	const JnEnergies e = jn_model_energies(jn_sim_model(run->sim), state);
+	const double total = e.kinetic + e.elastic + e.gravity;
+	const bool at_start = jn_sim_steps(run->sim) == 0;
+	if (at_start) run->total_at_start = total;
+	run->end.specific_error = fabs(total - run->total_at_start) / run->info.total_mass;
+	run->end.specific_error_max = fmax(run->end.specific_error_max, run->end.specific_error);
+	const double values[FIXED_COLUMNS] = {(double)jn_sim_steps(run->sim),
+										  state->t,
+										  jn_sim_last_dt(run->sim),
+										  e.kinetic,
+										  e.elastic,
+										  e.gravity,
+										  total,
+										  run->end.specific_error,
+										  at_start ? 0 : report->newton,
+										  at_start ? 0 : report->factorizations,
+										  at_start ? 0 : report->solves,
+										  at_start ? 0 : report->rejected,
+										  e.momentum[0],
+										  e.momentum[1],
+										  e.momentum[2],
+										  e.angular[0],
+										  e.angular[1],
+										  e.angular[2]};
+	memcpy(run->values, values, sizeof values);
+	for (int i = 0; i < run->scene->def.probes.count; ++i)
+		memcpy(run->values + FIXED_COLUMNS + 3 * i, state->x + 3 * (size_t)run->probe_nodes[i], 3 * sizeof(double));
+}
