@@ -16,7 +16,7 @@ int app_describe(int count, char** arguments);
 /// The exit status for a library status.
 int app_exit_status(JnStatus status);
 
-/// Print "jounce: <what> '<word>'..." with a pointer to --help; returns EXIT_BAD_INPUT.
+/// Print "jounce: error: ..." and where help is to stderr; returns EXIT_BAD_INPUT. `command` "": the whole command.
 int app_usage_error(const char* command, const char* format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

@@ -6,9 +6,10 @@
 #include "base/key.h"
 #include "jounce/scene.h"
 
-static const char help[] = "usage: jounce describe [--markdown] [KEY]\n\n"
-						   "Explains a key by its path, such as step.dt or bodies.material, or all of them: kind, "
-						   "unit, default, bounds, meaning.";
+static const char help[] =
+	"usage: jounce describe [--markdown] [KEY]\n\n"
+	"Explains a key of scene files by its path, such as step.dt or bodies.material, and "
+	"the keys below it, or all:\nkind, unit, default, bounds, meaning. --markdown writes tables.";
 
 int app_describe(int count, char** arguments) {
 	const char* key = "";
@@ -19,6 +20,8 @@ int app_describe(int count, char** arguments) {
 			markdown = true;
 		else if (arguments[i][0] == '-')
 			return app_usage_error("describe", "there is no option '%s'", arguments[i]);
+		else if (*key != '\0')
+			return app_usage_error("describe", "one key at a time; '%s' is one too many", arguments[i]);
 		else
 			key = arguments[i];
 	}

@@ -8,36 +8,57 @@
 #include "control/controller.h"
 #include "force/kernel.h"
 #include "integrate/integrator.h"
-#include "integrate/tableau.h"
+#include "integrate/properties.h"
 #include "mesh/generate.h"
+#include "model/motion.h"
 #include "solve/solver.h"
 
 static const char help[] =
-	"usage: jounce list [integrators|materials|elements|solvers|controllers] [--json]\n\n"
-	"Without a word: all of them. Properties of integrators are computed from their coefficients:\n"
-	"  solves   implicit solves a step\n"
-	"  A, L     A-stable, L-stable      SA  stiffly accurate      R(inf)  limit of the stability function\n"
+	"usage: jounce list [integrators|materials|shapes|elements|motions|solvers|controllers] [--json]\n\n"
+	"Without a word: all of them. Properties of integrators follow from their coefficients, or are measured on an\n"
+	"undamped oscillator:\n"
+	"  solves   linear or nonlinear systems a step     A, L    A-stable, L-stable     SA  stiffly accurate\n"
+	"  R(inf)   amplification of infinitely fast oscillations a step\n"
+	"  limit    largest stable omega dt of a method that is not A-stable; 0: unstable without damping\n"
 	"  q, r     phase error ~ (omega dt)^(q+1), amplitude loss ~ (omega dt)^(r+1) a step; - : none";
 
 static const char* yes_no(bool value) {
 	return value ? "yes" : "no";
 }
 
+// Rounding leaves -0 and 1e-17 where a limit is 0.
+static double tidy(double value) {
+	return fabs(value) < 1e-12 ? 0 : value;
+}
+
+// A count, or - where there is none.
+static void print_count(int width, int count) {
+	if (count > 0)
+		printf("%*d ", width, count);
+	else
+		printf("%*s ", width, "-");
+}
+
+static void integrator_text(const JnIntegratorType* type) {
+	JnIntegratorProperties p;
+	jn_integrator_properties(type, &p);
+	printf("%-22s %5d ", type->row.name, p.order);
+	print_count(6, p.stages);
+	printf("%6d %3s %3s %3s ", p.solves, yes_no(p.a_stable), yes_no(p.l_stable), yes_no(p.stiffly_accurate));
+	if (isfinite(p.r_infinity))
+		printf("%8.4g %6s ", tidy(p.r_infinity), "-");
+	else
+		printf("%8s %6.4g ", "-", p.stability_limit);
+	print_count(2, p.dispersion_order);
+	print_count(2, p.dissipation_order);
+	printf(" %s\n", type->row.doc);
+}
+
 static void integrators_text(void) {
-	printf("%-18s %5s %6s %6s %3s %3s %3s %9s %2s %2s  %s\n", "integrators", "order", "stages", "solves", "A", "L",
-		   "SA", "R(inf)", "q", "r", "");
-	for (int i = 0; i < jn_integrator_list.count; ++i) {
-		const JnIntegratorType* type = (const JnIntegratorType*)jn_integrator_list.rows[i];
-		const JnTableau* table = type->table;
-		const JnTableauProperties p = jn_tableau_properties(table);
-		printf("%-18s %5d %6d %6d %3s %3s %3s %9.4g %2d ", type->row.name, p.order, table->stages, p.implicit_solves,
-			   yes_no(p.a_stable), yes_no(p.l_stable), yes_no(p.stiffly_accurate), p.r_infinity, p.dispersion_order);
-		if (p.dissipation_order > 0)
-			printf("%2d", p.dissipation_order);
-		else
-			printf("%2s", "-");
-		printf("  %s\n", type->row.doc);
-	}
+	printf("%-22s %5s %6s %6s %3s %3s %3s %8s %6s %2s %2s\n", "integrators", "order", "stages", "solves", "A", "L",
+		   "SA", "R(inf)", "limit", "q", "r");
+	for (int i = 0; i < jn_integrator_list.count; ++i)
+		integrator_text((const JnIntegratorType*)jn_integrator_list.rows[i]);
 }
 
 static void print_json_text(const char* text) {
@@ -49,19 +70,29 @@ static void print_json_text(const char* text) {
 	putchar('"');
 }
 
-static void integrator_json(const JnIntegratorType* type) {
-	const JnTableau* table = type->table;
-	const JnTableauProperties p = jn_tableau_properties(table);
-	printf("\"order\": %d, \"stages\": %d, \"implicit_solves\": %d, \"a_stable\": %s, \"l_stable\": %s, "
-		   "\"stiffly_accurate\": %s, \"first_stage_explicit\": %s, \"stage_order\": %d, \"r_infinity\": %.10g, "
-		   "\"dispersion_order\": %d, \"dispersion\": %.8g, \"dissipation_order\": ",
-		   p.order, table->stages, p.implicit_solves, p.a_stable ? "true" : "false", p.l_stable ? "true" : "false",
-		   p.stiffly_accurate ? "true" : "false", p.first_explicit ? "true" : "false", p.stage_order, p.r_infinity,
-		   p.dispersion_order, p.dispersion);
-	if (p.dissipation_order > 0)
-		printf("%d, \"dissipation\": %.8g, ", p.dissipation_order, p.dissipation);
+static const char* true_false(bool value) {
+	return value ? "true" : "false";
+}
+
+// JSON has no infinity.
+static void json_number(const char* name, double value) {
+	if (isfinite(value))
+		printf("\"%s\": %.10g, ", name, tidy(value));
 	else
-		printf("null, \"dissipation\": 0, ");
+		printf("\"%s\": null, ", name);
+}
+
+static void integrator_json(const JnIntegratorType* type) {
+	JnIntegratorProperties p;
+	jn_integrator_properties(type, &p);
+	printf("\"order\": %d, \"stages\": %d, \"solves\": %d, \"a_stable\": %s, \"l_stable\": %s, "
+		   "\"stiffly_accurate\": %s, \"measured\": %s, \"dispersion_order\": %d, \"dissipation_order\": %d, ",
+		   p.order, p.stages, p.solves, true_false(p.a_stable), true_false(p.l_stable), true_false(p.stiffly_accurate),
+		   true_false(p.is_measured), p.dispersion_order, p.dissipation_order);
+	json_number("dispersion", p.dispersion);
+	json_number("dissipation", p.dissipation);
+	json_number("r_infinity", p.r_infinity);
+	json_number("stability_limit", p.stability_limit);
 }
 
 static void rows_text(const char* title, const JnRowList* list) {
@@ -81,8 +112,10 @@ typedef struct Catalogue {
 } Catalogue;
 
 static const Catalogue catalogues[] = {
-	{"integrators", &jn_integrator_list}, {"materials", &jn_law_list},          {"elements", NULL},
-	{"solvers", &jn_solver_list},         {"controllers", &jn_controller_list},
+	{"integrators", &jn_integrator_list}, {"materials", &jn_law_list},
+	{"shapes", &jn_shape_list},           {"elements", NULL},
+	{"motions", &jn_motion_list},         {"solvers", &jn_solver_list},
+	{"controllers", &jn_controller_list},
 };
 enum { CATALOGUES = sizeof catalogues / sizeof *catalogues };
 
@@ -118,17 +151,14 @@ static const char* catalogue_name(void* context, int index) {
 	return index < CATALOGUES ? catalogues[index].name : NULL;
 }
 
-static int print_all(const char* word, bool json) {
+static int print_lists(const char* word, bool json) {
 	bool found = false;
 	if (json) puts("{");
 	for (int i = 0; i < CATALOGUES; ++i) {
 		if (word != NULL && strcmp(word, catalogues[i].name) != 0) continue;
 		if (found) puts(json ? "," : "");
 		found = true;
-		if (json)
-			print_json(&catalogues[i]);
-		else
-			print_text(&catalogues[i]);
+		(json ? print_json : print_text)(&catalogues[i]);
 	}
 	if (json) puts("\n}");
 	return EXIT_DONE;
@@ -144,14 +174,14 @@ int app_list(int count, char** arguments) {
 		else if (arguments[i][0] == '-')
 			return app_usage_error("list", "there is no option '%s'", arguments[i]);
 		else if (word != NULL)
-			return app_usage_error("list", "one list at a time, or all of them without a word");
+			return app_usage_error("list", "one list at a time; '%s' is one too many", arguments[i]);
 		else
 			word = arguments[i];
 	}
 	bool is_known = word == NULL;
 	for (int i = 0; i < CATALOGUES && !is_known; ++i) is_known = strcmp(word, catalogues[i].name) == 0;
-	if (is_known) return print_all(word, json);
+	if (is_known) return print_lists(word, json);
 	const char* near = jn_suggest(word, catalogue_name, NULL);
-	if (near != NULL) return app_usage_error("list", "there is no list '%s'; did you mean '%s'", word, near);
+	if (near != NULL) return app_usage_error("list", "there is no list '%s'; did you mean '%s'?", word, near);
 	return app_usage_error("list", "there is no list '%s'", word);
 }

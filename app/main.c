@@ -19,7 +19,7 @@ typedef struct Command {
 static const Command commands[] = {
 	{"run", app_run, "simulate a scene and record it"},
 	{"check", app_check, "read and validate a scene, run nothing"},
-	{"list", app_list, "show what there is: integrators, materials, elements, solvers, controllers"},
+	{"list", app_list, "show what there is: integrators, materials, elements and more"},
 	{"describe", app_describe, "explain the keys of scene files"},
 };
 enum { COMMANDS = sizeof commands / sizeof *commands };
@@ -47,19 +47,23 @@ int app_usage_error(const char* command, const char* format, ...) {
 	va_start(arguments, format);
 	fputs("jounce: error: ", stderr);
 	vfprintf(stderr, format, arguments);
-	fprintf(stderr, "; 'jounce %s%s--help' explains\n", command, *command != '\0' ? " " : "");
+	fprintf(stderr, "\n'jounce %s%s--help' explains\n", command, *command != '\0' ? " " : "");
 	va_end(arguments);
 	return EXIT_BAD_INPUT;
 }
 
-static void print_help(void) {
-	puts("jounce simulates deformable solids and makes the way it steps through time a choice.\n\n"
-		 "usage: jounce COMMAND ...\n");
-	for (int i = 0; i < COMMANDS; ++i) printf("  %-10s %s\n", commands[i].name, commands[i].doc);
-	puts("\n  --version  version, vector width and dense kernels in use\n  --help     this text; also after a "
-		 "command\n\n"
-		 "exit status: 0 done, 1 the simulation failed (the last good state is on disk),\n"
-		 "             2 bad input or usage, 3 a file could not be read or written");
+static void print_help(FILE* out) {
+	fputs("jounce simulates deformable solids and makes the way it steps through time a choice.\n\n"
+		  "usage: jounce COMMAND ...\n\n",
+		  out);
+	for (int i = 0; i < COMMANDS; ++i) fprintf(out, "  %-10s %s\n", commands[i].name, commands[i].doc);
+	fputs("\n  --version  version, vector width and dense kernels in use\n  --help     this text; after a command: its "
+		  "options\n\n"
+		  "Start with:  jounce run scenes/beam.yaml\n\n"
+		  "exit status: 0 done, or stopped by Ctrl-C with all files complete\n"
+		  "             1 the simulation failed; the last good state is on disk\n"
+		  "             2 bad input or usage\n             3 a file could not be read or written\n",
+		  out);
 }
 
 static void print_version(void) {
@@ -78,17 +82,22 @@ static void restart_with_better_blas(char** arguments) {
 	if (setenv("OPENBLAS_CORETYPE", core, 1) == 0) execv("/proc/self/exe", arguments);
 }
 
-int main(int count, char** arguments) {
-	restart_with_better_blas(arguments);
-	if (count < 2) {
-		print_help();
-		return EXIT_BAD_INPUT;
-	}
-	if (strcmp(arguments[1], "--help") == 0 || strcmp(arguments[1], "-h") == 0) return print_help(), EXIT_DONE;
+static int run_command(int count, char** arguments) {
+	if (count < 2) return print_help(stderr), EXIT_BAD_INPUT;
+	if (strcmp(arguments[1], "--help") == 0 || strcmp(arguments[1], "-h") == 0) return print_help(stdout), EXIT_DONE;
 	if (strcmp(arguments[1], "--version") == 0) return print_version(), EXIT_DONE;
 	for (int i = 0; i < COMMANDS; ++i)
 		if (strcmp(arguments[1], commands[i].name) == 0) return commands[i].run(count - 1, arguments + 1);
 	const char* near = jn_suggest(arguments[1], command_name, NULL);
-	if (near != NULL) return app_usage_error("", "there is no command '%s'; did you mean '%s'", arguments[1], near);
+	if (near != NULL) return app_usage_error("", "there is no command '%s'; did you mean '%s'?", arguments[1], near);
 	return app_usage_error("", "there is no command '%s'", arguments[1]);
+}
+
+int main(int count, char** arguments) {
+	restart_with_better_blas(arguments);
+	const int status = run_command(count, arguments);
+	const bool is_lost = fflush(stdout) != 0 || ferror(stdout) != 0;
+	if (status != EXIT_DONE || !is_lost) return status;
+	fputs("jounce: error: the output cannot be written\n", stderr);
+	return EXIT_FILE_FAILED;
 }

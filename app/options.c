@@ -2,23 +2,49 @@
 
 #include <errno.h>
 #include <getopt.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "app.h"
+#include "base/key.h"
 
 enum { MOST_THREADS = 1024 };
+
+static const struct option known[] = {
+	{"help", no_argument, NULL, 'h'},      {"output", required_argument, NULL, 'o'},  {"quiet", no_argument, NULL, 'q'},
+	{"set", required_argument, NULL, 's'}, {"threads", required_argument, NULL, 't'}, {0},
+};
+
+static const char* option_name(void* context, int index) {
+	(void)context;
+	return known[index].name;
+}
+
+// getopt has just refused the option before `optind`: by its letter, or as a whole word.
+static int refuse_option(const char* command, char** arguments) {
+	const char* word = arguments[optind - 1];
+	if (optopt != 0 && strncmp(word, "--", 2) != 0) return app_usage_error(command, "there is no option '-%c'", optopt);
+	char name[64];
+	snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
+	for (int i = 0; known[i].name != NULL; ++i)
+		if (strcmp(known[i].name, name) == 0) return app_usage_error(command, "--%s takes no value", name);
+	const char* near = jn_suggest(name, option_name, NULL);
+	if (near != NULL) return app_usage_error(command, "there is no option '--%s'; did you mean '--%s'?", name, near);
+	return app_usage_error(command, "there is no option '--%s'", name);
+}
 
 static int read_threads(const char* command, const char* text, int* threads) {
 	char* end = NULL;
 	errno = 0;
 	const long value = strtol(text, &end, 10);
 	if (errno != 0 || end == text || *end != '\0' || value < 1 || value > MOST_THREADS)
-		return app_usage_error(command, "--threads: '%s' is no number from 1 to %d", text, MOST_THREADS);
+		return app_usage_error(command, "--threads: '%s' is no whole number from 1 to %d", text, MOST_THREADS);
 	*threads = (int)value;
 	return EXIT_DONE;
 }
 
-static int read_option(const char* command, int option, SceneOptions* options) {
+static int read_option(const char* command, int option, char** arguments, SceneOptions* options) {
 	switch (option) {
 	case 'h':
 		options->wants_help = true;
@@ -34,27 +60,25 @@ static int read_option(const char* command, int option, SceneOptions* options) {
 		return EXIT_DONE;
 	case 't':
 		return read_threads(command, optarg, &options->threads);
+	case ':':
+		return app_usage_error(command, "%s needs a value behind it", arguments[optind - 1]);
 	default:
-		return app_usage_error(command, "an option is unknown or lacks its value");
+		return refuse_option(command, arguments);
 	}
 }
 
 int scene_options_read(const char* command, int count, char** arguments, SceneOptions* options) {
-	static const struct option known[] = {
-		{"help", no_argument, NULL, 'h'},          {"output", required_argument, NULL, 'o'},
-		{"quiet", no_argument, NULL, 'q'},         {"set", required_argument, NULL, 's'},
-		{"threads", required_argument, NULL, 't'}, {0},
-	};
+	opterr = 0; // the words are ours
 	*options = (SceneOptions){.sets = calloc((size_t)count + 1, sizeof *options->sets)};
 	if (options->sets == NULL) return EXIT_RUN_FAILED;
-	for (int option; (option = getopt_long(count, arguments, "ho:q", known, NULL)) != -1;) {
-		const int status = read_option(command, option, options);
+	for (int option; (option = getopt_long(count, arguments, ":ho:q", known, NULL)) != -1;) {
+		const int status = read_option(command, option, arguments, options);
 		if (status != EXIT_DONE) return status;
 	}
 	if (options->wants_help) return EXIT_DONE;
 	if (optind == count) return app_usage_error(command, "no scene file is given");
 	if (optind + 1 < count)
-		return app_usage_error(command, "one scene at a time; '%s' is too much", arguments[optind + 1]);
+		return app_usage_error(command, "one scene at a time; '%s' is one too many", arguments[optind + 1]);
 	options->scene = arguments[optind];
 	return EXIT_DONE;
 }

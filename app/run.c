@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "app.h"
@@ -10,14 +11,15 @@
 #include "jounce/scene.h"
 #include "options.h"
 
-static const char help[] = "usage: jounce run SCENE [-o DIR] [--set key=value ...] [--threads N] [--quiet]\n\n"
-						   "  -o DIR           where results go; default out/<scene name>\n"
-						   "  --set key=value  override any key: --set integrator.method=sdirk2 --set step.dt=33ms\n"
-						   "  --threads N      threads; default: all\n"
-						   "  --quiet          no progress, no summary\n\n"
-						   "Writes run.h5, run.xdmf (ParaView), series.csv, summary.json and plots/. Ctrl-C finishes "
-						   "the step and writes what\n"
-						   "there is.";
+static const char help[] =
+	"usage: jounce run SCENE [-o DIR] [--set key=value ...] [--threads N] [--quiet]\n\n"
+	"  -o, --output DIR  where results go; default out/<name of the scene>\n"
+	"  --set key=value   override any key: --set integrator.method=sdirk2 --set step.dt=33ms\n"
+	"  --threads N       default: as many as there are processors\n"
+	"  -q, --quiet       no progress, no summary\n\n"
+	"Writes run.h5, run.xdmf (ParaView), series.csv, summary.json and plots/, over those of an earlier run.\n"
+	"Ctrl-C finishes the step and completes the files (exit status 0, outcome \"interrupted\"); a second one ends at "
+	"once.";
 
 static volatile sig_atomic_t interrupted = 0;
 
@@ -40,22 +42,44 @@ static void format_duration(double seconds, char* out, size_t size) {
 		snprintf(out, size, "%d:%02d", (int)seconds / 60, (int)seconds % 60);
 }
 
-static void print_progress(const Display* display, const JnProgress* p) {
+static int terminal_width(void) {
+	struct winsize size;
+	return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+// One line that is written over and over; cut to the terminal, for a line that wraps cannot be written over.
+static void print_bar(const JnProgress* p, double pace, const char* left) {
 	enum { BAR = 20 };
-	char bar[BAR + 1], left[24];
-	const double share = p->t_end > 0 ? p->t / p->t_end : 1;
-	const double pace = p->t > 0 ? p->wall_seconds / p->t : 0;
+	char bar[BAR + 1], line[256];
+	const double share = p->t / p->t_end;
 	const int full = (int)(share * BAR + 0.5);
 	for (int i = 0; i < BAR; ++i) bar[i] = i < full ? '#' : '.';
 	bar[BAR] = '\0';
+	snprintf(line, sizeof line,
+			 "[%s] %3.0f%%  t %.4g of %g s  left %s  pace %.3g s/s  dt %.3g s  newton %d  drift %.1e J/kg", bar,
+			 100 * share, p->t, p->t_end, left, pace, p->dt, p->newton, p->specific_error);
+	printf("\r%.*s\033[K", terminal_width() - 1, line);
+}
+
+static void print_progress(const Display* display, const JnProgress* p) {
+	char left[24];
+	const double pace = p->t > 0 ? p->wall_seconds / p->t : 0;
 	format_duration(pace * (p->t_end - p->t), left, sizeof left);
 	if (display->is_terminal)
-		printf("\r[%s] %3.0f%%  t %.4g/%g s  pace %.3g s/s  dt %.3g s  newton %d  drift %.2e J/kg  left %s \033[K", bar,
-			   100 * share, p->t, p->t_end, pace, p->dt, p->newton, p->specific_error, left);
+		print_bar(p, pace, left);
 	else
-		printf("t %.6g of %g s, step %ld, pace %.3g s/s, dt %.3g s, newton %d, drift %.3e J/kg, left %s\n", p->t,
-			   p->t_end, p->steps, pace, p->dt, p->newton, p->specific_error, left);
+		printf("t %.6g of %g s, step %ld, left %s, pace %.3g s/s, dt %.3g s, newton %d, drift %.3e J/kg\n", p->t,
+			   p->t_end, p->steps, left, pace, p->dt, p->newton, p->specific_error);
 	fflush(stdout);
+}
+
+// Messages start on a line of their own, not behind the progress bar.
+static void on_message(void* user, JnLogLevel level, const char* message) {
+	const Display* display = user;
+	if (level == JN_LOG_INFO) return;
+	if (display->is_terminal && !display->is_quiet) fputs("\r\033[K", stdout);
+	fflush(stdout);
+	fprintf(stderr, "jounce: %s: %s\n", level == JN_LOG_ERROR ? "error" : "warning", message);
 }
 
 static bool on_progress(void* user, const JnProgress* p) {
@@ -68,19 +92,21 @@ static bool on_progress(void* user, const JnProgress* p) {
 	return !interrupted;
 }
 
-static void print_summary(const Display* display, const JnRunResult* r, double t_end, const char* directory) {
-	if (display->is_terminal) printf("\r\033[K");
-	if (r->was_stopped) printf("stopped at t = %.6g of %g s, as asked\n", r->t, t_end);
-	printf("%ld steps to t = %g s in %.3g s of wall time (%.3g s per simulated s)\n", r->steps, r->t, r->wall_seconds,
-		   r->t > 0 ? r->wall_seconds / r->t : 0);
-	printf("%.2f Newton iterations a step, %ld factorisations, %ld rejected steps\n",
-		   r->steps > 0 ? (double)r->newton / (double)r->steps : 0, r->factorizations, r->rejected);
+static void print_summary(const Display* display, const JnSceneDef* def, const JnRunResult* r, const char* directory) {
+	const double steps = r->steps > 0 ? (double)r->steps : 1;
+	if (display->is_terminal) fputs("\r\033[K", stdout);
+	if (r->was_stopped) printf("stopped as asked, at t = %.6g of %g s\n", r->t, def->sim.duration);
+	printf("%ld steps to t = %.6g s in %.3g s of wall time", r->steps, r->t, r->wall_seconds);
+	if (r->t > 0) printf(" (%.3g s per simulated s)", r->wall_seconds / r->t);
+	printf("\n%.2f Newton iterations a step, %ld factorisations, %ld rejected attempts\n", (double)r->newton / steps,
+		   r->factorizations, r->rejected);
 	printf("energy error |e(t) - e(0)|: %.6g J/kg\n", r->specific_error);
-	printf("wrote %s: run.h5 (%ld frames), run.xdmf, series.csv, summary.json, plots/\n", directory, r->frames);
+	printf("wrote %s: run.h5 (%ld frame%s), run.xdmf, series.csv, summary.json%s\n", directory, r->frames,
+		   r->frames == 1 ? "" : "s", def->record.plots ? ", plots/" : "");
 }
 
 static JnStatus simulate(const SceneOptions* options, const JnScene* scene) {
-	char directory[512];
+	char directory[128];
 	const JnSceneDef* def = jn_scene_def(scene);
 	Display display = {.is_quiet = options->is_quiet, .is_terminal = isatty(STDOUT_FILENO) != 0, .last = jn_seconds()};
 	snprintf(directory, sizeof directory, "out/%s", def->name);
@@ -93,19 +119,29 @@ static JnStatus simulate(const SceneOptions* options, const JnScene* scene) {
 			   def->sim.duration);
 	fflush(stdout);
 	JnRunResult result;
+	jn_log_set_sink(on_message, &display);
 	const JnStatus status = jn_scene_run(scene, &run, &result);
-	if (!options->is_quiet && (status == JN_OK || result.steps > 0))
-		print_summary(&display, &result, def->sim.duration, run.directory);
+	jn_log_set_sink(NULL, NULL);
+	if (!options->is_quiet && result.frames > 0) print_summary(&display, def, &result, run.directory);
+	fflush(stdout);
+	clearerr(stdout); // what counts is on disk; progress that nobody reads is no failure
 	return status;
+}
+
+// A second Ctrl-C ends the process at once. A reader of stdout that goes away (`jounce run ... | head`) ends nothing.
+static void handle_signals(void) {
+	const struct sigaction stop = {.sa_handler = on_interrupt, .sa_flags = (int)(SA_RESETHAND | SA_RESTART)};
+	const struct sigaction ignore = {.sa_handler = SIG_IGN};
+	sigaction(SIGINT, &stop, NULL);
+	sigaction(SIGTERM, &stop, NULL);
+	sigaction(SIGPIPE, &ignore, NULL);
 }
 
 static int run_scene(const SceneOptions* options) {
 	JnScene* scene = NULL;
 	JnStatus status = jn_scene_load(options->scene, options->set_count, options->sets, &scene);
 	if (status != JN_OK) return app_exit_status(status);
-	const struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
-	sigaction(SIGINT, &action, NULL);
-	sigaction(SIGTERM, &action, NULL);
+	handle_signals();
 	status = simulate(options, scene);
 	jn_scene_destroy(scene);
 	return app_exit_status(status);
