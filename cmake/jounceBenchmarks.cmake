@@ -1,11 +1,8 @@
-# Every benchmark/<name>.c is the executable bench_<name>; `./dev bench` runs them.
+# benchmark/*.c are one program, jounce_bench; `./dev bench` runs it.
 file(GLOB benchmark_sources CONFIGURE_DEPENDS benchmark/*.c)
-foreach(source IN LISTS benchmark_sources)
-	cmake_path(GET source STEM name)
-	string(REGEX REPLACE "^bench_" "" name ${name})
-	set(name bench_${name})
-	add_executable(${name} ${source})
-	target_include_directories(${name} PRIVATE include src)
-	target_compile_definitions(${name} PRIVATE JN_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
-	target_link_libraries(${name} PRIVATE jounce jounce_flags ${JN_DEPENDENCIES} OpenMP::OpenMP_C m)
-endforeach()
+if(benchmark_sources)
+	add_executable(jounce_bench ${benchmark_sources})
+	target_include_directories(jounce_bench PRIVATE include src benchmark)
+	target_compile_definitions(jounce_bench PRIVATE JN_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
+	target_link_libraries(jounce_bench PRIVATE jounce jounce_flags ${JN_DEPENDENCIES} OpenMP::OpenMP_C m)
+endif()

@@ -37,7 +37,7 @@ function(jounce_find name header package)
 	target_include_directories(jounce::${name} SYSTEM INTERFACE ${JN_${upper}_INCLUDE})
 endfunction()
 
-jounce_find(suitesparse cholmod.h libsuitesparse-dev LIBRARIES cholmod umfpack SUFFIXES suitesparse)
+jounce_find(suitesparse cholmod.h libsuitesparse-dev LIBRARIES cholmod SUFFIXES suitesparse)
 jounce_find(openblas cblas.h libopenblas-pthread-dev LIBRARIES openblas SUFFIXES openblas-pthread openblas)
 jounce_find(hdf5 hdf5.h libhdf5-dev ANY hdf5_serial hdf5 SUFFIXES hdf5/serial)
 jounce_find(yaml yaml.h libyaml-dev LIBRARIES yaml)

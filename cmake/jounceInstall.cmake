@@ -37,5 +37,6 @@ if(BUILD_SHARED_LIBS)
 else()
 	set(JN_PC_LIBS "${libraries}")
 endif()
+file(RELATIVE_PATH JN_PC_PREFIX "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" "${CMAKE_INSTALL_PREFIX}") # so that the folder may be moved
 configure_file(jounce.pc.in jounce.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/jounce.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

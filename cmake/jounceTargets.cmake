@@ -40,5 +40,5 @@ if(JN_COMMAND_SOURCES)
 	set_target_properties(jounce_command PROPERTIES OUTPUT_NAME jounce INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 	target_include_directories(jounce_command PRIVATE src app)
 
-	target_link_libraries(jounce_command PRIVATE jounce jounce_flags OpenMP::OpenMP_C m)
+	target_link_libraries(jounce_command PRIVATE jounce jounce_flags ${JN_DEPENDENCIES} OpenMP::OpenMP_C m)
 endif()

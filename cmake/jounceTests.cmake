@@ -38,3 +38,9 @@ foreach(source IN LISTS test_sources)
 		set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS long)
 	endif()
 endforeach()
+
+if(TARGET jounce_command)
+	add_test(NAME examples COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/examples/build_and_run
+		${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/examples_test)
+	set_tests_properties(examples PROPERTIES TIMEOUT 300)
+endif()
