@@ -18,6 +18,7 @@ typedef struct Command {
 
 static const Command commands[] = {
 	{"run", app_run, "simulate a scene and record it"},
+	{"compare", app_compare, "run a scene in many variants and compare errors, costs and energies"},
 	{"check", app_check, "read and validate a scene, run nothing"},
 	{"list", app_list, "show what there is: integrators, materials, elements and more"},
 	{"describe", app_describe, "explain the keys of scene files"},
@@ -74,12 +75,16 @@ static void print_version(void) {
 		   blas);
 }
 
-// OpenBLAS chooses its kernels when it is loaded, before main; when it mistook the processor, start again with the right
-// choice in the environment.
-static void restart_with_better_blas(char** arguments) {
+// Two libraries read the environment when they are loaded, before main; where it lacks what serves us, start again with it.
+// OpenBLAS may have mistaken the processor. OpenMP's threads would spin while they wait: on a machine with other work that
+// makes a step of two threads several times slower than one of one.
+static void restart_in_better_environment(char** arguments) {
 	const char* core = jn_blas_better_core();
-	if (core == NULL || getenv("OPENBLAS_CORETYPE") != NULL) return;
-	if (setenv("OPENBLAS_CORETYPE", core, 1) == 0) execv("/proc/self/exe", arguments);
+	const bool wants_core = core != NULL && getenv("OPENBLAS_CORETYPE") == NULL;
+	const bool wants_policy = getenv("OMP_WAIT_POLICY") == NULL;
+	if (wants_core && setenv("OPENBLAS_CORETYPE", core, 1) != 0) return;
+	if (wants_policy && setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
+	if (wants_core || wants_policy) execv("/proc/self/exe", arguments);
 }
 
 static int run_command(int count, char** arguments) {
@@ -94,7 +99,7 @@ static int run_command(int count, char** arguments) {
 }
 
 int main(int count, char** arguments) {
-	restart_with_better_blas(arguments);
+	restart_in_better_environment(arguments);
 	const int status = run_command(count, arguments);
 	const bool is_lost = fflush(stdout) != 0 || ferror(stdout) != 0;
 	if (status != EXIT_DONE || !is_lost) return status;

@@ -100,7 +100,7 @@ typedef struct JnSpaceOps {
 	JnVec (*create)(JnSpace*);        ///< zeroed; NULL when memory is out
 	void (*destroy)(JnSpace*, JnVec); ///< NULL is allowed
 	void (*combine)(JnSpace*, JnVec out, int count,
-					const JnTerm terms[]); ///< out = sum of scale * vec; out may be a term
+					const JnTerm terms[]); ///< out = sum of scale * vec, up to 16 terms; out may be one
 	double (*dot)(JnSpace*, const double* a, const double* b);
 	double (*max)(JnSpace*, const double* a); ///< largest absolute entry; NAN if any is NAN
 } JnSpaceOps;

@@ -2,6 +2,7 @@
 // the chunks in order, so that its bits depend neither on the threads nor on the width of the vector unit.
 #include "base/space.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,7 +10,7 @@
 #include "base/log.h"
 #include "base/parallel.h"
 
-enum { CHUNK = 4096, LANES = 8, ALIGNMENT = 64, GRAIN = 65536 };
+enum { CHUNK = 4096, LANES = 8, ALIGNMENT = 64, GRAIN = 65536, MOST_TERMS = 16 };
 
 typedef struct HostSpace {
 	JnSpace base;
@@ -41,22 +42,61 @@ static size_t chunk_end(const JnSpace* space, size_t chunk) {
 	return end < space->length ? end : space->length;
 }
 
-// out[first .. last) = sum of the terms, two at a time so that a long sum reads memory once per pair.
-static void combine_range(double* out, int count, const JnTerm terms[], size_t first, size_t last) {
+// Entries are independent even where `out` is one of the terms: each is read before it is written.
+#if defined(__clang__)
+	#define INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+	#define INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
+static void combine_one(double* out, const JnTerm* t, size_t n) {
+	const double* a = t->vec;
+	const double sa = t->scale;
+	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] = sa * a[k];
+}
+
+static void combine_two(double* out, const JnTerm* t, size_t n) {
+	const double *a = t[0].vec, *b = t[1].vec;
+	const double sa = t[0].scale, sb = t[1].scale;
+	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] = sa * a[k] + sb * b[k];
+}
+
+static void combine_three(double* out, const JnTerm* t, size_t n) {
+	const double *a = t[0].vec, *b = t[1].vec, *c = t[2].vec;
+	const double sa = t[0].scale, sb = t[1].scale, sc = t[2].scale;
+	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] = sa * a[k] + sb * b[k] + sc * c[k];
+}
+
+// More terms than that: each chunk is summed beside, since `out` may be a term that is still to come.
+static void combine_many(double* out, int count, const JnTerm terms[], size_t n) {
 	double sum[CHUNK];
-	const size_t n = last - first;
-	const double* one = terms[0].vec + first;
-	for (size_t k = 0; k < n; ++k) sum[k] = terms[0].scale * one[k];
+	for (size_t k = 0; k < n; ++k) sum[k] = terms[0].scale * terms[0].vec[k];
 	for (int i = 1; i < count; ++i) {
-		const double* vec = terms[i].vec + first;
+		const double* vec = terms[i].vec;
 		const double scale = terms[i].scale;
 		for (size_t k = 0; k < n; ++k) sum[k] += scale * vec[k];
 	}
-	memcpy(out + first, sum, n * sizeof *sum);
+	memcpy(out, sum, n * sizeof *sum);
+}
+
+// out[first .. last) = sum of the terms, in their order.
+static void combine_range(double* out, int count, const JnTerm terms[], size_t first, size_t last) {
+	JnTerm here[MOST_TERMS];
+	for (int i = 0; i < count; ++i) here[i] = (JnTerm){terms[i].scale, terms[i].vec + first};
+	const size_t n = last - first;
+	if (count == 1)
+		combine_one(out + first, here, n);
+	else if (count == 2)
+		combine_two(out + first, here, n);
+	else if (count == 3)
+		combine_three(out + first, here, n);
+	else
+		combine_many(out + first, count, here, n);
 }
 
 static void combine(JnSpace* space, JnVec out, int count, const JnTerm terms[]) {
 	const long chunks = (long)((HostSpace*)space)->chunks;
+	assert(count >= 0 && count <= MOST_TERMS);
 	if (count == 0) {
 		memset(out, 0, space->length * sizeof *out);
 		return;

@@ -118,20 +118,28 @@ int jn_pattern_find(const JnPattern* pattern, int row, int column) {
 	return -1;
 }
 
+// The three sums stay in registers: written out, because compilers keep a small array in memory here.
 static void row_blocks(const JnPattern* pattern, const double* blocks, double scale, const double* x, double* y,
 					   int i) {
-	double sum[3] = {0, 0, 0};
+	double s0 = 0, s1 = 0, s2 = 0;
 	for (int k = pattern->full_start[i]; k < pattern->full_start[i + 1]; ++k) {
 		const double* in = x + 3 * (size_t)pattern->full_column[k];
 		const int block = pattern->full_block[k];
 		const double* b = blocks + 9 * (size_t)(block >= 0 ? block : ~block);
 		if (block >= 0) {
-			for (int r = 0; r < 3; ++r) sum[r] += b[3 * r] * in[0] + b[3 * r + 1] * in[1] + b[3 * r + 2] * in[2];
+			s0 += b[0] * in[0] + b[1] * in[1] + b[2] * in[2];
+			s1 += b[3] * in[0] + b[4] * in[1] + b[5] * in[2];
+			s2 += b[6] * in[0] + b[7] * in[1] + b[8] * in[2];
 		} else {
-			for (int r = 0; r < 3; ++r) sum[r] += b[r] * in[0] + b[3 + r] * in[1] + b[6 + r] * in[2];
+			s0 += b[0] * in[0] + b[3] * in[1] + b[6] * in[2];
+			s1 += b[1] * in[0] + b[4] * in[1] + b[7] * in[2];
+			s2 += b[2] * in[0] + b[5] * in[1] + b[8] * in[2];
 		}
 	}
-	for (int r = 0; r < 3; ++r) y[3 * (size_t)i + (size_t)r] += scale * sum[r];
+	double* out = y + 3 * (size_t)i;
+	out[0] += scale * s0;
+	out[1] += scale * s1;
+	out[2] += scale * s2;
 }
 
 void jn_blocks_apply(const JnPattern* pattern, const double* blocks, double scale, const double* x, double* y,
@@ -143,14 +151,19 @@ void jn_blocks_apply(const JnPattern* pattern, const double* blocks, double scal
 
 static void row_scalars(const JnPattern* pattern, const double* scalars, double scale, const double* x, double* y,
 						int i) {
-	double sum[3] = {0, 0, 0};
+	double s0 = 0, s1 = 0, s2 = 0;
 	for (int k = pattern->full_start[i]; k < pattern->full_start[i + 1]; ++k) {
 		const double* in = x + 3 * (size_t)pattern->full_column[k];
 		const int block = pattern->full_block[k];
 		const double m = scalars[block >= 0 ? block : ~block];
-		for (int r = 0; r < 3; ++r) sum[r] += m * in[r];
+		s0 += m * in[0];
+		s1 += m * in[1];
+		s2 += m * in[2];
 	}
-	for (int r = 0; r < 3; ++r) y[3 * (size_t)i + (size_t)r] += scale * sum[r];
+	double* out = y + 3 * (size_t)i;
+	out[0] += scale * s0;
+	out[1] += scale * s1;
+	out[2] += scale * s2;
 }
 
 void jn_scalars_apply(const JnPattern* pattern, const double* scalars, double scale, const double* x, double* y,

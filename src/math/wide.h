@@ -8,6 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
 #ifndef JN_WIDE
 	#define JN_WIDE 2
@@ -126,11 +127,19 @@ JN_INLINE Wide wide_fma(Wide a, Wide b, Wide c) {
 #endif
 }
 
+/// Out of line, so that no wide register is live around the calls: mixing them with the library's scalar code costs a
+/// transition each.
+JN_SHARED void wide_log_lanes(double lanes[JN_WIDE]) {
+	for (int lane = 0; lane < JN_WIDE; lane++) lanes[lane] = log(lanes[lane]);
+}
+
 /// Natural logarithm by the C library, so that all widths agree; -INFINITY at 0, NAN below.
 JN_INLINE Wide wide_log(Wide a) {
-	Wide result = a;
-	for (int lane = 0; lane < JN_WIDE; lane++) result[lane] = log(a[lane]);
-	return result;
+	double lanes[JN_WIDE];
+	memcpy(lanes, &a, sizeof lanes);
+	wide_log_lanes(lanes);
+	memcpy(&a, lanes, sizeof lanes);
+	return a;
 }
 
 #endif

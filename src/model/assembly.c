@@ -9,7 +9,7 @@
 enum { FORCE_CHUNK = 64, TANGENT_CHUNK = 16, MOST_BLOCK_PAIRS = 55, MOST_NODES = 10 };
 
 // Elements that make another thread worth waking: a fork costs 50 to 100 us, a force 0.1 us, a tangent 1 us an element.
-enum { FORCE_GRAIN = 2048, TANGENT_GRAIN = 256 };
+enum { FORCE_GRAIN = 2048, TANGENT_GRAIN = 1024 };
 
 typedef struct BodyMap {
 	int pairs;  // local node pairs (i, j <= i)
