@@ -1,8 +1,8 @@
-# libjounce and the command. The element kernels, src/force/solid_*.c, are compiled once for each vector width into the
+# libjounce and the command. Wide loops, src/force/solid_*.c and src/solve/wide_*.c, are compiled once for each vector width into the
 # same library, and the widest that the machine can run is chosen at run time.
 file(GLOB JN_SOURCES CONFIGURE_DEPENDS src/*/*.c src/*/*/*.c)
-file(GLOB JN_KERNEL_SOURCES CONFIGURE_DEPENDS src/force/solid_*.c)
-list(FILTER JN_SOURCES EXCLUDE REGEX "/src/force/solid_[^/]*\\.c$|/src/backend/")
+file(GLOB JN_KERNEL_SOURCES CONFIGURE_DEPENDS src/force/solid_*.c src/solve/wide_*.c)
+list(FILTER JN_SOURCES EXCLUDE REGEX "/src/force/solid_[^/]*\\.c$|/src/solve/wide_[^/]*\\.c$|/src/backend/")
 if(NOT JN_SOURCES)
 	message(FATAL_ERROR "no sources under ${CMAKE_CURRENT_SOURCE_DIR}/src")
 endif()
@@ -31,7 +31,7 @@ endfunction()
 jounce_add_kernels(2)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
 	jounce_add_kernels(4 -mavx2 -mfma)
-	jounce_add_kernels(8 -mavx512f -mavx512dq -mavx512vl -mavx2 -mfma)
+	jounce_add_kernels(8 -mavx512f -mavx512dq -mavx512vl -mavx2 -mfma -mprefer-vector-width=512)
 endif()
 
 file(GLOB JN_COMMAND_SOURCES CONFIGURE_DEPENDS app/*.c)

@@ -130,6 +130,8 @@ typedef struct JnShift {
 typedef struct JnMatrixOps {
 	void (*apply)(JnMatrix*, const double* in, JnVec out);      ///< out = matrix * in, held entries included
 	JnStatus (*solve)(JnMatrix*, const double* rhs, JnVec out); ///< factors on first use; held entries of out are 0
+	/// Like solve, to about six digits and faster: a direction for iterations that measure their residual. NULL: use solve.
+	JnStatus (*approximate)(JnMatrix*, const double* rhs, JnVec out);
 } JnMatrixOps;
 
 struct JnMatrix {

@@ -29,6 +29,7 @@ typedef struct Stage {
 	double norm, tolerance; // of the residual [N]
 	int secants;            // steps remembered since the last refresh
 	bool is_fresh;          // the tangent was made at the present a
+	bool is_exact;          // directions by full solves: approximate ones did not serve
 } Stage;
 
 static JnSpace* space_of(const Stage* stage) {
@@ -107,7 +108,8 @@ static void apply_secants(Stage* stage, JnVec z) {
 static JnStatus newton_direction(Stage* stage) {
 	JnMatrix* matrix = NULL;
 	JN_TRY(stage_matrix(stage, &matrix));
-	JN_TRY(matrix->ops->solve(matrix, stage->residual, stage->step));
+	const bool is_exact = stage->is_exact || matrix->ops->approximate == NULL;
+	JN_TRY((is_exact ? matrix->ops->solve : matrix->ops->approximate)(matrix, stage->residual, stage->step));
 	apply_secants(stage, stage->step);
 	return JN_OK;
 }
@@ -149,7 +151,7 @@ static JnStatus iterate(Stage* stage, bool* must_refresh) {
 		stage->is_fresh = false;
 		return JN_OK;
 	}
-	if (!stage->is_fresh) {
+	if (!stage->is_fresh || !stage->is_exact) {
 		*must_refresh = true;
 		return back_to_origin(stage);
 	}
@@ -179,7 +181,8 @@ static bool refresh_pays(Stage* stage, double contraction) {
 // never twice as dear as the best possible.
 static JnStatus first_tangent(Stage* stage) {
 	JnIntegrator* self = stage->self;
-	if (self->linearized == 0 || self->newton.reuse == REUSE_NEVER) return refresh(stage);
+	stage->is_exact = self->newton.reuse == REUSE_NEVER;
+	if (self->linearized == 0 || stage->is_exact) return refresh(stage);
 	if (self->linearized > self->step_stamp) return JN_OK;
 	JnMatrix* matrix = NULL;
 	JN_TRY(stage_matrix(stage, &matrix));
@@ -203,13 +206,16 @@ static JnStatus solve_root(Stage* stage) {
 			judge_age(stage->self, iteration + 1);
 			return JN_OK;
 		}
-		if (must_refresh || refresh_pays(stage, stage->norm / before)) JN_TRY(refresh(stage));
+		if (!must_refresh && !refresh_pays(stage, stage->norm / before)) continue;
+		stage->is_exact |= must_refresh || stage->norm > 0.5 * before; // slow: no more approximate directions either
+		JN_TRY(refresh(stage));
 	}
 	return JN_NOT_CONVERGED;
 }
 
 static JnStatus solve_linear(Stage* stage) {
 	JnSpace* space = space_of(stage);
+	stage->is_exact = true;
 	JN_TRY(refresh(stage));
 	JN_TRY(newton_direction(stage));
 	++stage->report->newton;

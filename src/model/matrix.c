@@ -50,7 +50,9 @@ static void divide_by_mass(const JnModel* model, double mass, const double* rhs,
 		out[k] = model->held[k] ? 0 : rhs[k] / (mass * model->nodal_mass[k / 3]);
 }
 
-static JnStatus solve(JnMatrix* base, const double* rhs, JnVec out) {
+typedef JnStatus Solve(JnSolver*, int slot, const double* rhs, double* out);
+
+static JnStatus solve_by(JnMatrix* base, Solve* solve, const double* rhs, JnVec out) {
 	JnModelMatrix* matrix = (JnModelMatrix*)base;
 	JnModelSystem* sys = (JnModelSystem*)base->sys;
 	if (!depends_on_state(matrix->shift) && sys->model->mass_is_diagonal) {
@@ -59,7 +61,15 @@ static JnStatus solve(JnMatrix* base, const double* rhs, JnVec out) {
 	}
 	++sys->base.report->solves;
 	if (!matrix->base.is_factored) JN_TRY(factor(matrix));
-	return sys->solver->type->solve(sys->solver, matrix->slot, rhs, out);
+	return solve(sys->solver, matrix->slot, rhs, out);
+}
+
+static JnStatus solve(JnMatrix* base, const double* rhs, JnVec out) {
+	return solve_by(base, ((JnModelSystem*)base->sys)->solver->type->solve, rhs, out);
+}
+
+static JnStatus approximate(JnMatrix* base, const double* rhs, JnVec out) {
+	return solve_by(base, ((JnModelSystem*)base->sys)->solver->type->approximate, rhs, out);
 }
 
 static void apply(JnMatrix* base, const double* in, JnVec out) {
@@ -80,7 +90,7 @@ static void apply(JnMatrix* base, const double* in, JnVec out) {
 		jn_blocks_apply(&model->pattern, sys->stiffness, shift.stiffness, in, out, model->threads);
 }
 
-static const JnMatrixOps matrix_ops = {.apply = apply, .solve = solve};
+static const JnMatrixOps matrix_ops = {.apply = apply, .solve = solve, .approximate = approximate};
 
 static bool same_shift(JnShift a, JnShift b) {
 	return a.mass == b.mass && a.damping == b.damping && a.stiffness == b.stiffness;

@@ -1,27 +1,36 @@
 // Supernodal sparse Cholesky by CHOLMOD (Chen, Davis, Hager, Rajamanickam 2008).
 //
 // The fill-reducing order is computed on the node graph, whose vertices are 3x3 blocks, and expanded: nine times fewer
-// entries to order, and the three unknowns of a node stay together. The analysis serves every later factorisation.
+// entries to order, and the three unknowns of a node stay together. The matrix is then stored in that order, so that a
+// factorisation starts without the permuted copy that CHOLMOD would make each time; a table says where each entry of the
+// blocks goes. The analysis serves every later factorisation.
 #include <cholmod.h>
+#include <math.h>
 #include <omp.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/log.h"
 #include "solve/blas.h"
+#include "solve/single.h"
 #include "solve/solver.h"
 
 typedef struct Direct {
 	JnSolver base;
 	const JnPattern* pattern;
-	bool* held;      // 3 * nodes; an entry held in a free node keeps an identity row
-	int* free_index; // node -> its number among the nodes with a free entry, or -1
 	int free_nodes;
+	int* free_index; // node -> its number among the nodes with a free entry, or -1
+	int* position;   // entry 3 * node + axis -> its place in the factor's order, or -1 when it is held
+	int* target;     // 9 * block + 3 * row + column -> its number in the matrix, or -1
 	cholmod_common common;
-	cholmod_sparse* matrix; // lower triangle of the free entries
+	cholmod_sparse* matrix; // lower triangle in the factor's order; entries held in free nodes are identity rows
 	cholmod_factor* symbolic;
 	cholmod_factor* factors[JN_SOLVER_SLOTS];
 	cholmod_dense *rhs, *solution, *work1, *work2;
+	float* single[JN_SOLVER_SLOTS]; // the factors once more, in single precision, then their inverse diagonals
+	size_t* single_panel;           // where panels begin, and the size of all
+	float *single_x, *single_work;  // a vector, and a panel's rows
+	JnSingleSolve* single_solve;    // NULL: double precision only
 	JnSolverCost cost;
 } Direct;
 
@@ -44,7 +53,13 @@ static void destroy(JnSolver* solver) {
 	if (solver == NULL) return;
 	Direct* direct = (Direct*)solver;
 	cholmod_common* common = &direct->common;
-	for (int slot = 0; slot < JN_SOLVER_SLOTS; ++slot) cholmod_free_factor(&direct->factors[slot], common);
+	for (int slot = 0; slot < JN_SOLVER_SLOTS; ++slot) {
+		cholmod_free_factor(&direct->factors[slot], common);
+		free(direct->single[slot]);
+	}
+	free(direct->single_panel);
+	free(direct->single_x);
+	free(direct->single_work);
 	cholmod_free_factor(&direct->symbolic, common);
 	cholmod_free_sparse(&direct->matrix, common);
 	cholmod_free_dense(&direct->rhs, common);
@@ -52,14 +67,15 @@ static void destroy(JnSolver* solver) {
 	cholmod_free_dense(&direct->work1, common);
 	cholmod_free_dense(&direct->work2, common);
 	cholmod_finish(common);
-	free(direct->held);
 	free(direct->free_index);
+	free(direct->position);
+	free(direct->target);
 	free(direct);
 }
 
-static void number_free_nodes(Direct* direct) {
+static void number_free_nodes(Direct* direct, const bool* all_held) {
 	for (int node = 0; node < direct->pattern->nodes; ++node) {
-		const bool* held = direct->held + 3 * (size_t)node;
+		const bool* held = all_held + 3 * (size_t)node;
 		direct->free_index[node] = held[0] && held[1] && held[2] ? -1 : direct->free_nodes++;
 	}
 }
@@ -99,8 +115,8 @@ static void choose_orderings(cholmod_common* common, int ordering) {
 	for (int i = 0; i < common->nmethods; ++i) common->method[i].ordering = metis_then_amd[ordering == 2 ? 1 : i];
 }
 
-// A permutation of the free entries: the order of the node graph, three entries a node. NULL when memory is out.
-static int* order_entries(Direct* direct, int ordering) {
+// Place of each node in the fill-reducing order, columns postordered; NULL when memory is out.
+static int* order_nodes(Direct* direct, int ordering) {
 	cholmod_common* common = &direct->common;
 	cholmod_sparse* graph = node_graph(direct);
 	if (graph == NULL) return NULL;
@@ -108,58 +124,161 @@ static int* order_entries(Direct* direct, int ordering) {
 	cholmod_factor* nodal = cholmod_analyze(graph, common);
 	cholmod_free_sparse(&graph, common);
 	if (nodal == NULL) return NULL;
-	int* order = malloc(3 * (size_t)direct->free_nodes * sizeof *order);
-	const int* node_order = nodal->Perm;
-	for (int i = 0; order != NULL && i < direct->free_nodes; ++i)
-		for (int axis = 0; axis < 3; ++axis) order[3 * i + axis] = 3 * node_order[i] + axis;
+	int* place = malloc(((size_t)direct->free_nodes + 1) * sizeof *place);
+	const int* order = nodal->Perm;
+	for (int i = 0; place != NULL && i < direct->free_nodes; ++i) place[order[i]] = i;
 	cholmod_free_factor(&nodal, common);
-	return order;
+	return place;
 }
 
-// The scalar matrix: column 3 j + c holds rows c .. 2 of the diagonal block, then three rows of each block below.
-static cholmod_sparse* entry_matrix(Direct* direct) {
+// Call `visit` for every entry of the lower triangle in the factor's order, with its number 9 * block + 3 * r + c.
+typedef void Visit(Direct*, int row, int column, size_t number);
+
+static void visit_block(Direct* direct, int k, int row_node, int column_node, const int* place, Visit* visit) {
+	const int row = place[direct->free_index[row_node]], column = place[direct->free_index[column_node]];
+	for (int r = 0; r < 3; ++r)
+		for (int c = 0; c < 3; ++c) {
+			const int i = 3 * row + r, j = 3 * column + c;
+			if (row == column && r < c) continue; // the other half of a diagonal block
+			visit(direct, i > j ? i : j, i > j ? j : i, 9 * (size_t)k + 3 * (size_t)r + (size_t)c);
+		}
+}
+
+static void visit_entries(Direct* direct, const int* place, Visit* visit) {
 	const JnPattern* pattern = direct->pattern;
-	size_t entries = 0;
-	for (int node = 0; node < pattern->nodes; ++node)
-		if (direct->free_index[node] >= 0) entries += 9 * (size_t)free_blocks(direct, node) - 3;
-	const size_t n = 3 * (size_t)direct->free_nodes;
-	if (entries > (size_t)INT32_MAX) return NULL;
-	cholmod_sparse* matrix = cholmod_allocate_sparse(n, n, entries, 1, 1, -1, CHOLMOD_REAL, &direct->common);
-	if (matrix == NULL) return NULL;
-	int *start = matrix->p, *row = matrix->i, place = 0;
 	for (int node = 0; node < pattern->nodes; ++node) {
-		const int column = direct->free_index[node];
-		for (int c = 0; column >= 0 && c < 3; ++c) {
-			start[3 * column + c] = place;
-			for (int r = c; r < 3; ++r) row[place++] = 3 * column + r;
-			for (int k = pattern->column_start[node] + 1; k < pattern->column_start[node + 1]; ++k) {
-				const int below = direct->free_index[pattern->row[k]];
-				for (int r = 0; below >= 0 && r < 3; ++r) row[place++] = 3 * below + r;
-			}
+		if (direct->free_index[node] < 0) continue;
+		for (int k = pattern->column_start[node]; k < pattern->column_start[node + 1]; ++k)
+			if (direct->free_index[pattern->row[k]] >= 0) visit_block(direct, k, pattern->row[k], node, place, visit);
+	}
+}
+
+static void count_entry(Direct* direct, int row, int column, size_t number) {
+	(void)row, (void)number;
+	++((int*)direct->matrix->p)[column + 1];
+}
+
+static void put_entry(Direct* direct, int row, int column, size_t number) {
+	(void)number;
+	int* start = direct->matrix->p;
+	((int*)direct->matrix->i)[start[column]++] = row;
+}
+
+static void find_entry(Direct* direct, int row, int column, size_t number) {
+	const int *start = direct->matrix->p, *rows = direct->matrix->i;
+	int low = start[column], high = start[column + 1] - 1;
+	while (low < high) {
+		const int middle = low + (high - low) / 2;
+		if (rows[middle] < row)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	direct->target[number] = low;
+}
+
+static size_t count_entries(const Direct* direct) {
+	size_t entries = 0;
+	for (int node = 0; node < direct->pattern->nodes; ++node)
+		if (direct->free_index[node] >= 0) entries += 9 * (size_t)free_blocks(direct, node) - 3;
+	return entries;
+}
+
+static int by_value(const void* a, const void* b) {
+	const int left = *(const int*)a, right = *(const int*)b;
+	return (left > right) - (left < right);
+}
+
+// The pattern of the matrix, rows sorted, and the table of targets.
+static JnStatus lay_out(Direct* direct, const int* place) {
+	const size_t n = 3 * (size_t)direct->free_nodes, entries = count_entries(direct);
+	const size_t numbers = 9 * (size_t)direct->pattern->blocks;
+	if (entries > (size_t)INT32_MAX) return JN_OUT_OF_MEMORY;
+	direct->matrix = cholmod_allocate_sparse(n, n, entries, 1, 1, -1, CHOLMOD_REAL, &direct->common);
+	direct->target = malloc(numbers * sizeof *direct->target);
+	if (direct->matrix == NULL || direct->target == NULL) return JN_OUT_OF_MEMORY;
+	int *start = direct->matrix->p, *rows = direct->matrix->i;
+	memset(start, 0, (n + 1) * sizeof *start);
+	visit_entries(direct, place, count_entry);
+	for (size_t j = 0; j < n; ++j) start[j + 1] += start[j];
+	visit_entries(direct, place, put_entry); // moves each start to the next one
+	memmove(start + 1, start, n * sizeof *start);
+	start[0] = 0;
+	for (size_t j = 0; j < n; ++j) qsort(rows + start[j], (size_t)(start[j + 1] - start[j]), sizeof *rows, by_value);
+	for (size_t k = 0; k < numbers; ++k) direct->target[k] = -1;
+	visit_entries(direct, place, find_entry);
+	return JN_OK;
+}
+
+// A held entry of a free node: its row and column go nowhere, and its diagonal is 1 for good.
+static void isolate(Direct* direct, size_t held_entry) {
+	const JnPattern* pattern = direct->pattern;
+	const int node = (int)(held_entry / 3), axis = (int)(held_entry % 3);
+	for (int k = pattern->full_start[node]; k < pattern->full_start[node + 1]; ++k) {
+		const bool is_row = pattern->full_block[k] >= 0;
+		const size_t block = (size_t)(is_row ? pattern->full_block[k] : ~pattern->full_block[k]);
+		const bool is_diagonal = pattern->full_column[k] == node;
+		for (int other = 0; other < 3; ++other) {
+			int* along = &direct->target[9 * block + 3 * (size_t)axis + (size_t)other];
+			int* across = &direct->target[9 * block + 3 * (size_t)other + (size_t)axis];
+			if (is_diagonal && other == axis && *along >= 0) ((double*)direct->matrix->x)[*along] = 1;
+			if (is_row || is_diagonal) *along = -1;
+			if (!is_row || is_diagonal) *across = -1;
 		}
 	}
-	start[n] = place;
-	return matrix;
 }
 
-static JnStatus analyse(Direct* direct, int ordering) {
-	cholmod_common* common = &direct->common;
-	int* order = order_entries(direct, ordering);
-	direct->matrix = order != NULL ? entry_matrix(direct) : NULL;
-	if (direct->matrix != NULL) {
-		common->nmethods = 1;
-		common->method[0].ordering = CHOLMOD_GIVEN;
-		direct->symbolic = cholmod_analyze_p(direct->matrix, order, NULL, 0, common);
+static void place_entries(Direct* direct, const int* place, const bool* held) {
+	memset(direct->matrix->x, 0, direct->matrix->nzmax * sizeof(double));
+	for (int node = 0; node < direct->pattern->nodes; ++node)
+		for (int axis = 0; axis < 3; ++axis) {
+			const size_t k = 3 * (size_t)node + (size_t)axis;
+			const bool is_free = direct->free_index[node] >= 0;
+			direct->position[k] = is_free && !held[k] ? 3 * place[direct->free_index[node]] + axis : -1;
+			if (is_free && held[k]) isolate(direct, k);
+		}
+}
+
+// Vectors and places for factors in single precision.
+static JnStatus prepare_single(Direct* direct) {
+	const cholmod_factor* factor = direct->symbolic;
+	const int *super = factor->super, *pi = factor->pi;
+	int longest = JN_SINGLE_LANES;
+	direct->single_panel = malloc((factor->nsuper + 1) * sizeof *direct->single_panel);
+	direct->single_x = malloc(factor->n * sizeof *direct->single_x);
+	if (direct->single_panel == NULL || direct->single_x == NULL) return JN_OUT_OF_MEMORY;
+	direct->single_panel[0] = 0;
+	for (size_t s = 0; s < factor->nsuper; ++s) {
+		const int stride = jn_single_stride(pi[s + 1] - pi[s]);
+		direct->single_panel[s + 1] = direct->single_panel[s] + (size_t)stride * (size_t)(super[s + 1] - super[s]);
+		longest = stride > longest ? stride : longest;
 	}
-	free(order);
-	if (direct->symbolic == NULL)
+	direct->single_work = aligned_alloc(JN_SINGLE_LANES * sizeof(float), (size_t)longest * sizeof(float));
+	return direct->single_work != NULL ? JN_OK : JN_OUT_OF_MEMORY;
+}
+
+static JnStatus analyse(Direct* direct, int ordering, const bool* held) {
+	cholmod_common* common = &direct->common;
+	int* place = order_nodes(direct, ordering);
+	JnStatus status = place != NULL ? lay_out(direct, place) : JN_OUT_OF_MEMORY;
+	if (status == JN_OK) {
+		place_entries(direct, place, held);
+		common->nmethods = 1;
+		common->method[0].ordering = CHOLMOD_NATURAL;
+		common->postorder = 0;
+		direct->symbolic = cholmod_analyze(direct->matrix, common);
+		direct->rhs = cholmod_zeros(direct->matrix->nrow, 1, CHOLMOD_REAL, common);
+	}
+	free(place);
+	if (direct->symbolic == NULL || direct->rhs == NULL)
 		return jn_error(JN_OUT_OF_MEMORY,
 						"the sparse Cholesky analysis of %d nodes failed (CHOLMOD status %d); the matrix does not fit",
 						direct->free_nodes, common->status);
+	if (direct->single_solve != NULL && prepare_single(direct) != JN_OK)
+		return jn_error(JN_OUT_OF_MEMORY, "out of memory: solver");
 	direct->cost = (JnSolverCost){
 		.factor_flops = common->fl, .factor_entries = common->lnz, .bytes = direct->symbolic->xsize * sizeof(double)};
-	direct->rhs = cholmod_zeros(direct->matrix->nrow, 1, CHOLMOD_REAL, common);
-	return direct->rhs != NULL ? JN_OK : jn_error(JN_OUT_OF_MEMORY, "out of memory: right-hand side of the solver");
+	return JN_OK;
 }
 
 static JnStatus create(const void* options, const JnPattern* pattern, const bool* held, JnSolver** out) {
@@ -169,19 +288,19 @@ static JnStatus create(const void* options, const JnPattern* pattern, const bool
 	if (direct == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: direct solver");
 	direct->base.type = &jn_solver_direct;
 	direct->pattern = pattern;
-	direct->held = malloc(entries * sizeof *direct->held + 1);
 	direct->free_index = malloc((entries / 3 + 1) * sizeof *direct->free_index);
+	direct->position = malloc((entries + 1) * sizeof *direct->position);
+	if (((const JnDirectDef*)options)->precision == 0) direct->single_solve = jn_single_solve();
 	jn_blas_prepare();
 	cholmod_start(&direct->common);
 	direct->common.supernodal = CHOLMOD_SUPERNODAL;
 	direct->common.print = 0;
 	direct->common.try_catch = 1;
-	JnStatus status = direct->held != NULL && direct->free_index != NULL ? JN_OK : JN_OUT_OF_MEMORY;
-	if (status == JN_OK) {
-		memcpy(direct->held, held, entries * sizeof *held);
-		number_free_nodes(direct);
+	JnStatus status = JN_OUT_OF_MEMORY;
+	if (direct->free_index != NULL && direct->position != NULL) {
+		number_free_nodes(direct, held);
 		const Quiet quiet = quiet_begin();
-		status = analyse(direct, ((const JnDirectDef*)options)->ordering);
+		status = analyse(direct, ((const JnDirectDef*)options)->ordering, held);
 		quiet_end(quiet);
 	}
 	if (status != JN_OK)
@@ -191,30 +310,49 @@ static JnStatus create(const void* options, const JnPattern* pattern, const bool
 	return status;
 }
 
-// Column c of the block at `k`, masked where either entry is held.
-static double entry(const Direct* direct, const double* blocks, int k, int row_node, int r, int column_node, int c) {
-	const bool masked =
-		direct->held[3 * (size_t)row_node + (size_t)r] || direct->held[3 * (size_t)column_node + (size_t)c];
-	if (!masked) return blocks[9 * (size_t)k + 3 * (size_t)r + (size_t)c];
-	return row_node == column_node && r == c ? 1.0 : 0.0;
+static void fill(Direct* direct, const double* blocks) {
+	double* value = direct->matrix->x;
+	const size_t numbers = 9 * (size_t)direct->pattern->blocks;
+	for (size_t k = 0; k < numbers; ++k)
+		if (direct->target[k] >= 0) value[direct->target[k]] = blocks[k];
 }
 
-static void fill(Direct* direct, const double* blocks) {
-	const JnPattern* pattern = direct->pattern;
-	double* value = direct->matrix->x;
-	size_t place = 0;
-	for (int node = 0; node < pattern->nodes; ++node) {
-		if (direct->free_index[node] < 0) continue;
-		const int first = pattern->column_start[node];
-		for (int c = 0; c < 3; ++c) {
-			for (int r = c; r < 3; ++r) value[place++] = entry(direct, blocks, first, node, r, node, c);
-			for (int k = first + 1; k < pattern->column_start[node + 1]; ++k) {
-				const int row = pattern->row[k];
-				for (int r = 0; direct->free_index[row] >= 0 && r < 3; ++r)
-					value[place++] = entry(direct, blocks, k, row, r, node, c);
-			}
-		}
+static JnSingleFactor single_factor(const Direct* direct, int slot) {
+	const cholmod_factor* factor = direct->factors[slot];
+	return (JnSingleFactor){.supernodes = (int)factor->nsuper,
+							.super = factor->super,
+							.pi = factor->pi,
+							.rows = factor->s,
+							.panel = direct->single_panel,
+							.x = direct->single[slot],
+							.inverse = direct->single[slot] + direct->single_panel[factor->nsuper]};
+}
+
+static void copy_panel(const cholmod_factor* factor, const JnSingleFactor* single, size_t s) {
+	const int first = single->super[s], columns = single->super[s + 1] - first,
+			  rows = single->pi[s + 1] - single->pi[s];
+	const double* from = (const double*)factor->x + ((const int*)factor->px)[s];
+	for (int j = 0; j < columns; ++j, from += rows) {
+		float* to = single->x + single->panel[s] + (size_t)j * (size_t)jn_single_stride(rows);
+		single->inverse[first + j] = (float)(1 / from[j]);
+		for (int i = j + 1; i < rows; ++i) to[i] = (float)from[i];
 	}
+}
+
+static JnStatus copy_to_single(Direct* direct, int slot) {
+	const cholmod_factor* factor = direct->factors[slot];
+	const size_t numbers = direct->single_panel[factor->nsuper] + factor->n,
+				 lane_bytes = JN_SINGLE_LANES * sizeof(float);
+	const size_t bytes = (numbers * sizeof(float) + lane_bytes - 1) / lane_bytes * lane_bytes;
+	if (direct->single[slot] == NULL) { // padding and upper triangles are zeroed once and stay so
+		direct->single[slot] = aligned_alloc(lane_bytes, bytes);
+		if (direct->single[slot] == NULL)
+			return jn_error(JN_OUT_OF_MEMORY, "out of memory: a factor of %zu bytes", bytes);
+		memset(direct->single[slot], 0, bytes);
+	}
+	const JnSingleFactor single = single_factor(direct, slot);
+	for (size_t s = 0; s < factor->nsuper; ++s) copy_panel(factor, &single, s);
+	return JN_OK;
 }
 
 static JnStatus factor(JnSolver* solver, int slot, const double* blocks) {
@@ -227,7 +365,8 @@ static JnStatus factor(JnSolver* solver, int slot, const double* blocks) {
 	const Quiet quiet = quiet_begin();
 	const int worked = cholmod_factorize(direct->matrix, numeric, common);
 	quiet_end(quiet);
-	if (worked && common->status == CHOLMOD_OK && numeric->minor == numeric->n) return JN_OK;
+	if (worked && common->status == CHOLMOD_OK && numeric->minor == numeric->n)
+		return direct->single_solve != NULL ? copy_to_single(direct, slot) : JN_OK;
 	if (common->status == CHOLMOD_NOT_POSDEF) return JN_INDEFINITE;
 	return jn_error(JN_OUT_OF_MEMORY, "the sparse factorisation failed (CHOLMOD status %d) at %zu bytes a factor",
 					common->status, direct->cost.bytes);
@@ -236,23 +375,35 @@ static JnStatus factor(JnSolver* solver, int slot, const double* blocks) {
 static JnStatus solve(JnSolver* solver, int slot, const double* rhs, double* out) {
 	Direct* direct = (Direct*)solver;
 	cholmod_common* common = &direct->common;
-	double* b = direct->rhs->x;
-	for (int node = 0; node < direct->pattern->nodes; ++node)
-		for (int axis = 0; direct->free_index[node] >= 0 && axis < 3; ++axis) {
-			const size_t k = 3 * (size_t)node + (size_t)axis;
-			b[3 * direct->free_index[node] + axis] = direct->held[k] ? 0 : rhs[k];
-		}
+	double* b = direct->rhs->x; // its held entries stay 0
+	const size_t entries = 3 * (size_t)direct->pattern->nodes;
+	for (size_t k = 0; k < entries; ++k)
+		if (direct->position[k] >= 0) b[direct->position[k]] = rhs[k];
 	const Quiet quiet = quiet_begin();
 	const int worked = cholmod_solve2(CHOLMOD_A, direct->factors[slot], direct->rhs, NULL, &direct->solution, NULL,
 									  &direct->work1, &direct->work2, common);
 	quiet_end(quiet);
 	if (!worked) return jn_error(JN_OUT_OF_MEMORY, "the sparse solve failed (CHOLMOD status %d)", common->status);
 	const double* x = direct->solution->x;
-	for (int node = 0; node < direct->pattern->nodes; ++node)
-		for (int axis = 0; axis < 3; ++axis) {
-			const size_t k = 3 * (size_t)node + (size_t)axis;
-			out[k] = direct->held[k] ? 0 : x[3 * direct->free_index[node] + axis];
-		}
+	for (size_t k = 0; k < entries; ++k) out[k] = direct->position[k] >= 0 ? x[direct->position[k]] : 0;
+	return JN_OK;
+}
+
+static JnStatus approximate(JnSolver* solver, int slot, const double* rhs, double* out) {
+	Direct* direct = (Direct*)solver;
+	if (direct->single_solve == NULL) return solve(solver, slot, rhs, out);
+	const JnSingleFactor single = single_factor(direct, slot);
+	const size_t entries = 3 * (size_t)direct->pattern->nodes;
+	double largest = 0;
+	for (size_t k = 0; k < entries; ++k)
+		if (direct->position[k] >= 0) largest = fmax(largest, fabs(rhs[k]));
+	const double scale = largest > 0 ? largest : 1; // residuals may lie outside the range of single precision
+	memset(direct->single_x, 0, direct->matrix->nrow * sizeof *direct->single_x);
+	for (size_t k = 0; k < entries; ++k)
+		if (direct->position[k] >= 0) direct->single_x[direct->position[k]] = (float)(rhs[k] / scale);
+	direct->single_solve(&single, direct->single_x, direct->single_work);
+	for (size_t k = 0; k < entries; ++k)
+		out[k] = direct->position[k] >= 0 ? scale * (double)direct->single_x[direct->position[k]] : 0;
 	return JN_OK;
 }
 
@@ -260,6 +411,7 @@ static JnSolverCost cost(const JnSolver* solver) {
 	return ((const Direct*)solver)->cost;
 }
 
+static const char* const precisions[] = {"mixed", "double", NULL};
 static const char* const orderings[] = {"auto", "metis", "amd", NULL};
 
 static const JnKey keys[] = {
@@ -268,6 +420,13 @@ static const JnKey keys[] = {
 	 .field = offsetof(JnDirectDef, ordering),
 	 .names = orderings,
 	 .meaning = "fill-reducing order of the node graph; auto takes the better of METIS and AMD"},
+	{.name = "precision",
+	 .kind = JN_CHOICE,
+	 .field = offsetof(JnDirectDef, precision),
+	 .names = precisions,
+	 .meaning =
+		 "mixed: Newton's directions from a copy of the factor in single precision, residuals in double; double: all "
+		 "in double"},
 	{0},
 };
 
@@ -280,5 +439,6 @@ const JnSolverType jn_solver_direct = {
 	.destroy = destroy,
 	.factor = factor,
 	.solve = solve,
+	.approximate = approximate,
 	.cost = cost,
 };

@@ -25,6 +25,8 @@ typedef struct JnSolverType {
 	JnStatus (*factor)(JnSolver*, int slot, const double* blocks);
 	/// out = A^-1 rhs with the factor of `slot`; held entries of out are 0. Vectors of 3 * nodes; out may be rhs.
 	JnStatus (*solve)(JnSolver*, int slot, const double* rhs, double* out);
+	/// Like solve, to about six digits, from a factor in single precision where options allow it.
+	JnStatus (*approximate)(JnSolver*, int slot, const double* rhs, double* out);
 	JnSolverCost (*cost)(const JnSolver*);
 } JnSolverType;
 
@@ -38,7 +40,8 @@ extern const JnRowList jn_solver_list; ///< rows are &JnSolverType.row
 
 /// Keys of `solver: {method: direct}`.
 typedef struct JnDirectDef {
-	int ordering; ///< 0 auto: the better of METIS and AMD; 1 metis; 2 amd
+	int ordering;  ///< 0 auto: the better of METIS and AMD; 1 metis; 2 amd
+	int precision; ///< of directions for iterations that measure their residual: 0 mixed: single; 1 double
 } JnDirectDef;
 
 extern const JnSolverType jn_solver_direct;
