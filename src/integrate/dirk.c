@@ -68,6 +68,24 @@ static bool ends_on_last_stage(const JnTableau* table) {
 	return true;
 }
 
+// The largest entry of the embedded estimate of the error in position. Those of TR-BDF2 grow with stiffness: they are given
+// as they are, not filtered.
+static double estimate_error(JnIntegrator* self, const JnStep* step) {
+	const JnTableau* table = self->type->table;
+	JnTerm terms[JN_MAX_STAGES + 1];
+	int count = 0;
+	if (!table->has_embedded) return 0;
+	if (table->has_start_estimate) terms[count++] = (JnTerm){step->dt * table->error_start, step->start->v};
+	for (int i = 0; i < table->stages; ++i) {
+		const double weight = table->has_start_estimate ? table->error_stage[i] : table->b[i] - table->b_embedded[i];
+		terms[count++] = (JnTerm){step->dt * weight, rate_x(self, i)};
+	}
+	JnVec error = self->vectors[STAGE_X];
+	self->space->ops->combine(self->space, error, count, terms);
+	step->sys->ops->hold(step->sys, error); // held nodes are where they should be
+	return self->space->ops->max(self->space, error);
+}
+
 static JnStatus dirk_step(JnIntegrator* self, JnStep* step) {
 	const JnTableau* table = self->type->table;
 	step->sys->report = &step->report;
@@ -81,6 +99,7 @@ static JnStatus dirk_step(JnIntegrator* self, JnStep* step) {
 	step->end->t = step->start->t + step->dt;
 	step->sys->ops->prescribe(step->sys, step->end, NULL);
 	if (!ends_on_last_stage(table)) jn_state_touch(self->space, step->end);
+	step->report.error = estimate_error(self, step);
 	return jn_state_check(self->space, step->end);
 }
 

@@ -37,6 +37,7 @@ const JnTableau jn_tableau_trapezoid = {
 };
 
 // Alexander 1977. g = 1 - 1/sqrt(2), A = ((g), (1-g, g)), b = (1-g, g). Embedded weights (2/3, 1/3): Sdirk2a of KPP.
+// They only rescale the difference of the stages; the estimate with f_n is O(dt^3), exact to leading order for linear f.
 const JnTableau jn_tableau_sdirk2 = {
 	.stages = 2,
 	.a = {
@@ -48,6 +49,9 @@ const JnTableau jn_tableau_sdirk2 = {
 	.has_embedded = true,
 	.b_embedded = {0.6666666666666666666667, 0.3333333333333333333333},
 	.embedded_order = 1,
+	.has_start_estimate = true,
+	.error_start = 0.4714045207910316829339,
+	.error_stage = {-0.6666666666666666666667, 0.1952621458756349837328},
 };
 
 // Alexander 1977. g root of g^3 - 3g^2 + 3g/2 - 1/6, c = (g, (1+g)/2, 1), b1 = -(6g^2 - 16g + 1)/4,

@@ -14,6 +14,8 @@ typedef struct JnTableau {
 	double b[JN_MAX_STAGES], c[JN_MAX_STAGES];
 	bool has_embedded;
 	double b_embedded[JN_MAX_STAGES];
+	bool has_start_estimate; ///< error = dt (error_start f_n + sum error_stage_i f_i) instead of b - b_embedded
+	double error_start, error_stage[JN_MAX_STAGES];
 	int embedded_order;
 } JnTableau;
 

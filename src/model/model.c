@@ -24,6 +24,7 @@ static JnStatus mesh_body(const JnBodyDef* def, int index, JnModel* model) {
 	*body =
 		(JnBody){.name = def->name, .damping = def->damping, .mass_form = def->mass, .first_node = model->node_count};
 	memcpy(body->velocity, def->velocity, sizeof body->velocity);
+	memcpy(body->spin, def->spin, sizeof body->spin);
 	const JnShapeType* shape = (const JnShapeType*)def->shape.row;
 	char what[96];
 	snprintf(what, sizeof what, "bodies[%d].shape", index);
@@ -233,14 +234,35 @@ JnSystem* jn_model_system(JnModel* model) {
 	return model->system;
 }
 
-void jn_model_start(JnModel* model, double t, JnState* state) {
-	for (int b = 0; b < model->body_count; ++b) {
-		const JnBody* body = &model->bodies[b];
-		for (int k = 3 * body->first_node; k < 3 * (body->first_node + body->mesh.node_count); ++k) {
-			state->x[k] = model->rest[k];
-			state->v[k] = body->velocity[k % 3];
+// Row sums of the mass matrix times positions: the integral of density * x, as shape functions reproduce x.
+static void mass_centre(const JnModel* model, const JnBody* body, double centre[3]) {
+	double moment[3] = {0, 0, 0}, mass = 0;
+	for (int node = body->first_node; node < body->first_node + body->mesh.node_count; ++node) {
+		mass += model->nodal_mass[node];
+		for (int axis = 0; axis < 3; ++axis)
+			moment[axis] += model->nodal_mass[node] * model->rest[3 * (size_t)node + axis];
+	}
+	for (int axis = 0; axis < 3; ++axis) centre[axis] = moment[axis] / mass;
+}
+
+// x = X,  v = velocity + spin x (X - centre)
+static void start_body(const JnModel* model, const JnBody* body, JnState* state) {
+	double centre[3];
+	mass_centre(model, body, centre);
+	for (int node = body->first_node; node < body->first_node + body->mesh.node_count; ++node) {
+		const double* rest = model->rest + 3 * (size_t)node;
+		for (int axis = 0; axis < 3; ++axis) {
+			const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+			const double arm[2] = {rest[next] - centre[next], rest[last] - centre[last]};
+			const double turn = body->spin[next] * arm[1] - body->spin[last] * arm[0];
+			state->x[3 * (size_t)node + axis] = rest[axis];
+			state->v[3 * (size_t)node + axis] = body->velocity[axis] + turn;
 		}
 	}
+}
+
+void jn_model_start(JnModel* model, double t, JnState* state) {
+	for (int b = 0; b < model->body_count; ++b) start_body(model, &model->bodies[b], state);
 	state->t = t;
 	model->system->ops->prescribe(model->system, state, NULL);
 	jn_state_touch(model->system->space, state);

@@ -17,7 +17,7 @@ typedef struct JnBody {
 	JnGroup group;
 	JnDampingDef damping;
 	int mass_form; ///< 0 consistent, 1 lumped
-	double velocity[3];
+	double velocity[3], spin[3]; ///< at the start [m/s], [rad/s]
 } JnBody;
 
 /// One coordinate that does not follow the equations of motion.

@@ -166,6 +166,12 @@ const JnKey jn_body_keys[] = {
 	 .field = offsetof(JnBodyDef, velocity),
 	 .unit = "m/s",
 	 .meaning = "of all free nodes at the start"},
+	{.name = "spin",
+	 .kind = JN_REAL3,
+	 .field = offsetof(JnBodyDef, spin),
+	 .unit = "rad/s",
+	 .meaning = "angular velocity of all free nodes at the start, about the body's centre of mass at rest; added to "
+				"velocity"},
 	{.name = "fix",
 	 .kind = JN_LIST,
 	 .field = offsetof(JnBodyDef, fix),
