@@ -1,0 +1,98 @@
+// The element kernels by themselves: every law on every element, and all vector widths for the main pair.
+#include <math.h>
+#include <stdlib.h>
+
+#include "bench.h"
+#include "force/solid.h"
+#include "mesh/generate.h"
+
+const char* const verb_names[VERBS] = {"energy", "force", "tangent", "definite"};
+
+enum { FORCE_CHUNK = 64, TANGENT_CHUNK = 16 }; // elements, as in the assembly
+
+void kernel_run(void* context) {
+	const KernelRun* run = context;
+	const JnGroup* group = run->group;
+	const JnKernel* kernel = group->kernel;
+	const bool is_tangent = run->verb == TANGENT || run->verb == DEFINITE;
+	const int step = (is_tangent ? TANGENT_CHUNK : FORCE_CHUNK) / kernel->width;
+	for (int first = 0; first < run->batches; first += step) {
+		const int last = first + step < run->batches ? first + step : run->batches;
+		if (is_tangent)
+			kernel->tangent(group, first, last, run->x, run->verb == DEFINITE, run->out);
+		else
+			(run->verb == FORCE ? kernel->force : kernel->energy)(group, first, last, run->x, run->out);
+	}
+}
+
+void deform(int node_count, const double* rest, double edge, double* x) {
+	const double c = cos(0.3), s = sin(0.3);
+	uint32_t noise = 1;
+	for (int node = 0; node < node_count; node++) {
+		const double* X = rest + 3 * (ptrdiff_t)node;
+		const double bent = X[1] + 0.1 * X[0] * X[0] + 0.05 * X[2] * X[2];
+		const double moved[3] = {c * X[0] - s * bent, s * X[0] + c * bent, X[2]};
+		for (int a = 0; a < 3; a++) {
+			noise = noise * 1664525u + 1013904223u;
+			x[3 * (ptrdiff_t)node + a] = moved[a] + 0.1 * edge * ((double)(noise >> 8) / 16777216.0 - 0.5);
+		}
+	}
+}
+
+typedef struct Problem {
+	JnArena arena;
+	JnGroup group;
+	double *x, *out;
+} Problem;
+
+static const JnMaterialDef material = {.density = 1000, .young = 1e6, .poisson = 0.4};
+
+// 512 hexahedra or 480 tetrahedra, whose rest data fit into the second cache.
+static JnStatus make_problem(const JnKernel* kernel, Problem* problem) {
+	JnMesh mesh;
+	const bool is_hexahedron = kernel->shape == JN_HEX8;
+	const JnBoxDef box = {.size = {1, 1, 1},
+						  .cells = {is_hexahedron ? 8 : 4, is_hexahedron ? 8 : 4, is_hexahedron ? 8 : 5},
+						  .element = (int)kernel->shape};
+	JN_TRY(jn_generate_box(&box, &problem->arena, &mesh));
+	JN_TRY(jn_group_create(kernel, &mesh, 0, &material, &problem->arena, &problem->group));
+	JN_NEW(&problem->arena, problem->x, 3 * mesh.node_count);
+	JN_NEW(&problem->arena, problem->out, KERNEL_RUN_REALS);
+	deform(mesh.node_count, mesh.nodes, 1.0 / box.cells[2], problem->x);
+	if (kernel->freeze != NULL) kernel->freeze(&problem->group, 0, problem->group.batches, problem->x);
+	return JN_OK;
+}
+
+static void measure_verb(const Bench* bench, const Problem* problem, Verb verb) {
+	const JnGroup* group = &problem->group;
+	char name[64], size[24];
+	snprintf(name, sizeof name, "%s.%s.%s", jn_shape_info[group->kernel->shape].name, group->kernel->law->row.name,
+			 verb_names[verb]);
+	snprintf(size, sizeof size, "%d", group->count);
+	if (!bench_wants(bench, "kernel", name, size)) return;
+	KernelRun run = {.group = group, .batches = 1, .x = problem->x, .out = problem->out, .verb = verb};
+	const double flops = count_flops(kernel_run, &run) / group->kernel->width; // of an element
+	run.batches = group->batches;
+	const Timing seconds = measure(kernel_run, &run, 1, 0.1, 7);
+	Row row = {.group = "kernel", .name = name, .size = size, .threads = 1, .width = group->kernel->width};
+	row.value = timing_in(seconds, 1e-9, group->count);
+	row.unit = "ns/element";
+	if (flops > 0) row_set_flops(bench, &row, seconds.median, flops * group->count);
+	bench_report(bench, &row);
+}
+
+static void measure_pair(const Bench* bench, JnShape shape, const JnLaw* law, int width) {
+	const JnKernel* kernel = jn_kernel_find(shape, law, width);
+	Problem problem = {0};
+	if (kernel != NULL && make_problem(kernel, &problem) == JN_OK)
+		for (Verb verb = 0; verb < VERBS; verb++) measure_verb(bench, &problem, verb);
+	jn_arena_free(&problem.arena);
+}
+
+void bench_kernels(const Bench* bench) {
+	for (JnShape shape = 0; shape < JN_SHAPE_COUNT; shape++)
+		for (int i = 0; i < jn_law_list.count; i++)
+			measure_pair(bench, shape, (const JnLaw*)jn_law_list.rows[i], jn_kernel_best_width());
+	for (int width = jn_kernel_best_width() / 2; width >= 2; width /= 2)
+		measure_pair(bench, JN_HEX8, &jn_law_stable_neo_hookean, width);
+}
