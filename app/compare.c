@@ -4,6 +4,7 @@
 #include <stdio.h>
 
 #include "app.h"
+#include "base/folder.h"
 #include "base/log.h"
 #include "compare_check.h"
 #include "compare_files.h"
@@ -67,7 +68,7 @@ static JnStatus report(const CompareOptions* options, CompareJobs* jobs) {
 
 static int run_plan(const CompareOptions* options, const ComparePlan* plan) {
 	CompareJobs jobs;
-	JnStatus status = compare_folder_make(plan->directory);
+	JnStatus status = jn_folder_make(plan->directory);
 	if (status != JN_OK) return app_exit_status(status);
 	status = compare_jobs_prepare(options, plan, &jobs);
 	if (status == JN_OK) print_start(options, plan, &jobs);

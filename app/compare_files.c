@@ -1,29 +1,8 @@
-// Folders, and text files read whole.
+// Text files read whole, and where runs lie.
 #include "compare_files.h"
 
 #include <errno.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-
-#include "base/log.h"
-
-JnStatus compare_folder_make(const char* path) {
-	char part[JN_PATH_SIZE];
-	const size_t length = strlen(path);
-	if (length == 0 || length >= sizeof part)
-		return jn_error(JN_IO_FAILED, "'%s' is no usable folder name; choose another output with -o", path);
-	for (size_t i = 1; i <= length; ++i) {
-		if (path[i] != '/' && path[i] != '\0') continue;
-		memcpy(part, path, i);
-		part[i] = '\0';
-		if (mkdir(part, 0777) != 0 && errno != EEXIST)
-			return jn_error(JN_IO_FAILED, "%s: cannot make this folder: %s", part, strerror(errno));
-	}
-	struct stat about;
-	if (stat(path, &about) == 0 && S_ISDIR(about.st_mode)) return JN_OK;
-	return jn_error(JN_IO_FAILED, "%s: is no folder; choose another output with -o", path);
-}
 
 static char* read_stream(FILE* stream) {
 	size_t room = 1 << 14, length = 0;

@@ -8,9 +8,6 @@
 #include "jounce/base.h"
 #include "record/text_file.h"
 
-/// Make a folder and those above it. JN_IO_FAILED after a message.
-JnStatus compare_folder_make(const char* path);
-
 /// The text of a whole file, to be freed by the caller; NULL, with errno, when it cannot be read.
 char* compare_file_read(const char* path);
 

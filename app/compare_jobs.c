@@ -12,6 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/folder.h"
 #include "base/log.h"
 #include "base/timer.h"
 #include "compare_files.h"
@@ -125,7 +126,7 @@ JnStatus compare_jobs_prepare(const CompareOptions* options, const ComparePlan* 
 // The summary of an earlier run goes first, so that one that says "done" always belongs to the settings beside it.
 static JnStatus prepare_folder(const CompareJobs* jobs, const CompareRun* run, const char* folder) {
 	char path[JN_PATH_SIZE];
-	JN_TRY(compare_folder_make(folder));
+	JN_TRY(jn_folder_make(folder));
 	JN_TRY(jn_path_join(folder, "summary.json", path));
 	if (unlink(path) != 0 && errno != ENOENT)
 		return jn_error(JN_IO_FAILED, "%s: cannot be replaced: %s", path, strerror(errno));

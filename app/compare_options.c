@@ -1,16 +1,10 @@
 // Options by getopt_long; the lists keep the words in the order in which they were given.
 #include "compare_options.h"
 
-#include <errno.h>
-#include <getopt.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "app.h"
-#include "base/key.h"
-
-enum { MOST_THREADS = 1024 };
+#include "options.h"
 
 static const struct option known[] = {
 	{"help", no_argument, NULL, 'h'},
@@ -24,35 +18,6 @@ static const struct option known[] = {
 	{0},
 };
 
-static const char* option_name(void* context, int index) {
-	(void)context;
-	return known[index].name;
-}
-
-// getopt has just refused the option before `optind`: by its letter, or as a whole word.
-static int refuse_option(char** arguments) {
-	const char* word = arguments[optind - 1];
-	if (optopt != 0 && strncmp(word, "--", 2) != 0)
-		return app_usage_error("compare", "there is no option '-%c'", optopt);
-	char name[64];
-	snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-	for (int i = 0; known[i].name != NULL; ++i)
-		if (strcmp(known[i].name, name) == 0) return app_usage_error("compare", "--%s takes no value", name);
-	const char* near = jn_suggest(name, option_name, NULL);
-	if (near == NULL) return app_usage_error("compare", "there is no option '--%s'", name);
-	return app_usage_error("compare", "there is no option '--%s'; did you mean '--%s'?", name, near);
-}
-
-static int read_count(const char* name, int* value) {
-	char* end = NULL;
-	errno = 0;
-	const long number = strtol(optarg, &end, 10);
-	if (errno != 0 || end == optarg || *end != '\0' || number < 1 || number > MOST_THREADS)
-		return app_usage_error("compare", "--%s: '%s' is no whole number from 1 to %d", name, optarg, MOST_THREADS);
-	*value = (int)number;
-	return EXIT_DONE;
-}
-
 static int keep_word(CompareWords* list) {
 	list->words[list->count++] = optarg;
 	return EXIT_DONE;
@@ -64,7 +29,7 @@ static int read_option(int option, char** arguments, CompareOptions* options) {
 		options->wants_help = true;
 		return EXIT_DONE;
 	case 'j':
-		return read_count("jobs", &options->jobs);
+		return app_read_count("compare", "jobs", &options->jobs);
 	case 'o':
 		options->directory = optarg;
 		return EXIT_DONE;
@@ -76,13 +41,13 @@ static int read_option(int option, char** arguments, CompareOptions* options) {
 	case 's':
 		return keep_word(&options->sets);
 	case 't':
-		return read_count("threads", &options->threads);
+		return app_read_count("compare", "threads", &options->threads);
 	case 'v':
 		return keep_word(&options->vary);
 	case ':':
 		return app_usage_error("compare", "%s needs a value behind it", arguments[optind - 1]);
 	default:
-		return refuse_option(arguments);
+		return app_refuse_option("compare", known, arguments);
 	}
 }
 

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/folder.h"
 #include "base/log.h"
 #include "compare_files.h"
 #include "compare_process.h"
@@ -226,7 +227,7 @@ JnStatus compare_plots_draw(const CompareResults* results, int* count) {
 	*count = 0;
 	Drawing drawing = DRAWN;
 	JN_TRY(jn_path_join(results->plan->directory, "plots", folder));
-	JN_TRY(compare_folder_make(folder));
+	JN_TRY(jn_folder_make(folder));
 	JN_TRY(write_data(results, folder));
 	for (size_t i = 0; i < sizeof pictures / sizeof *pictures; ++i) {
 		if (!pictures[i].is_wanted) {

@@ -2,9 +2,7 @@
 #include <malloc.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "app.h"
 #include "base/key.h"
@@ -76,20 +74,6 @@ static void print_version(void) {
 		   blas);
 }
 
-// Two libraries read the environment when they are loaded, before main; where it lacks what serves us, start again with it.
-// OpenBLAS may have mistaken the processor. OpenMP's threads would spin while they wait: on a machine with other work that
-// makes a step of two threads several times slower than one of one.
-static void restart_in_better_environment(char** arguments) {
-	const char* core = jn_blas_better_core();
-	const bool wants_core = core != NULL && getenv("OPENBLAS_CORETYPE") == NULL;
-	const bool wants_policy = getenv("OMP_WAIT_POLICY") == NULL;
-	const bool wants_one = getenv("OPENBLAS_NUM_THREADS") == NULL;
-	if (wants_core && setenv("OPENBLAS_CORETYPE", core, 1) != 0) return;
-	if (wants_policy && setenv("OMP_WAIT_POLICY", "passive", 1) != 0) return;
-	if (wants_one && setenv("OPENBLAS_NUM_THREADS", "1", 1) != 0) return;
-	if (wants_core || wants_policy || wants_one) execv("/proc/self/exe", arguments);
-}
-
 // Factorisations take and free megabytes; giving them back to the system each time costs a sixth of a factorisation.
 static void keep_freed_memory(void) {
 	const int bytes = 256 << 20;
@@ -109,7 +93,7 @@ static int run_command(int count, char** arguments) {
 }
 
 int main(int count, char** arguments) {
-	restart_in_better_environment(arguments);
+	jn_blas_restart(arguments);
 	keep_freed_memory();
 	const int status = run_command(count, arguments);
 	const bool is_lost = fflush(stdout) != 0 || ferror(stdout) != 0;

@@ -1,7 +1,6 @@
 #include "options.h"
 
 #include <errno.h>
-#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,30 +16,28 @@ static const struct option known[] = {
 };
 
 static const char* option_name(void* context, int index) {
-	(void)context;
-	return known[index].name;
+	return ((const struct option*)context)[index].name;
 }
 
-// getopt has just refused the option before `optind`: by its letter, or as a whole word.
-static int refuse_option(const char* command, char** arguments) {
+int app_refuse_option(const char* command, const struct option* options, char** arguments) {
 	const char* word = arguments[optind - 1];
 	if (optopt != 0 && strncmp(word, "--", 2) != 0) return app_usage_error(command, "there is no option '-%c'", optopt);
 	char name[64];
 	snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-	for (int i = 0; known[i].name != NULL; ++i)
-		if (strcmp(known[i].name, name) == 0) return app_usage_error(command, "--%s takes no value", name);
-	const char* near = jn_suggest(name, option_name, NULL);
+	for (int i = 0; options[i].name != NULL; ++i)
+		if (strcmp(options[i].name, name) == 0) return app_usage_error(command, "--%s takes no value", name);
+	const char* near = jn_suggest(name, option_name, (void*)options);
 	if (near != NULL) return app_usage_error(command, "there is no option '--%s'; did you mean '--%s'?", name, near);
 	return app_usage_error(command, "there is no option '--%s'", name);
 }
 
-static int read_threads(const char* command, const char* text, int* threads) {
+int app_read_count(const char* command, const char* name, int* value) {
 	char* end = NULL;
 	errno = 0;
-	const long value = strtol(text, &end, 10);
-	if (errno != 0 || end == text || *end != '\0' || value < 1 || value > MOST_THREADS)
-		return app_usage_error(command, "--threads: '%s' is no whole number from 1 to %d", text, MOST_THREADS);
-	*threads = (int)value;
+	const long number = strtol(optarg, &end, 10);
+	if (errno != 0 || end == optarg || *end != '\0' || number < 1 || number > MOST_THREADS)
+		return app_usage_error(command, "--%s: '%s' is no whole number from 1 to %d", name, optarg, MOST_THREADS);
+	*value = (int)number;
 	return EXIT_DONE;
 }
 
@@ -59,11 +56,11 @@ static int read_option(const char* command, int option, char** arguments, SceneO
 		options->sets[options->set_count++] = optarg;
 		return EXIT_DONE;
 	case 't':
-		return read_threads(command, optarg, &options->threads);
+		return app_read_count(command, "threads", &options->threads);
 	case ':':
 		return app_usage_error(command, "%s needs a value behind it", arguments[optind - 1]);
 	default:
-		return refuse_option(command, arguments);
+		return app_refuse_option(command, known, arguments);
 	}
 }
 

@@ -3,6 +3,7 @@
 #ifndef JN_APP_OPTIONS_H
 #define JN_APP_OPTIONS_H
 
+#include <getopt.h>
 #include <stdbool.h>
 
 typedef struct SceneOptions {
@@ -18,5 +19,11 @@ typedef struct SceneOptions {
 /// Read the options of `command`. Returns EXIT_DONE, or EXIT_BAD_INPUT after a message. Free with scene_options_free.
 int scene_options_read(const char* command, int count, char** arguments, SceneOptions* options);
 void scene_options_free(SceneOptions* options);
+
+/// Say what is wrong with the option that getopt has just refused, before `optind`; returns EXIT_BAD_INPUT.
+int app_refuse_option(const char* command, const struct option* options, char** arguments);
+
+/// Read `optarg` as a count of threads or processes, at least 1. Returns EXIT_DONE, or EXIT_BAD_INPUT after a message.
+int app_read_count(const char* command, const char* name, int* value);
 
 #endif

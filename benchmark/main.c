@@ -1,8 +1,6 @@
 // The benchmark of jounce: what the machine can do, the element kernels, assembly and solver, whole steps.
-#include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "base/parallel.h"
 #include "bench.h"
@@ -21,14 +19,6 @@ static const char help[] =
 	"block32.\n\n"
 	"  --csv FILE   write the rows there too\n"
 	"  --threads N  threads to compare with one; the processors there are unless given\n";
-
-// OpenBLAS chooses its kernels when it is loaded, before main; when it mistook the processor, start again with the right
-// choice in the environment.
-static void restart_with_better_blas(char** arguments) {
-	const char* core = jn_blas_better_core();
-	if (core == NULL || getenv("OPENBLAS_CORETYPE") != NULL) return;
-	if (setenv("OPENBLAS_CORETYPE", core, 1) == 0) execv("/proc/self/exe", arguments);
-}
 
 // The processor as the system names it.
 static void processor_name(char* out, size_t size) {
@@ -89,7 +79,7 @@ static int usage_error(const char* words) {
 }
 
 int main(int count, char** arguments) {
-	restart_with_better_blas(arguments);
+	jn_blas_restart(arguments);
 	Bench bench = {.threads = jn_threads_available(), .words = arguments};
 	const char* path = NULL;
 	for (int i = 1; i < count; ++i) {

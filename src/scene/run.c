@@ -1,37 +1,13 @@
 // A scene, simulated and recorded: load -> build -> open recorders -> step and write -> close.
 #include "scene/run.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#include "base/folder.h"
 #include "base/timer.h"
 #include "model/model.h"
-
-// Make a folder and those above it.
-static JnStatus make_directory(const char* path) {
-	char part[4096];
-	const size_t length = strlen(path);
-	if (length == 0 || length >= sizeof part)
-		return jn_error(JN_IO_FAILED, "'%s' is no usable folder name; choose another output with -o", path);
-	for (size_t i = 1; i <= length; ++i) {
-		if (path[i] != '/' && path[i] != '\0') continue;
-		memcpy(part, path, i);
-		part[i] = '\0';
-		if (mkdir(part, 0777) != 0 && errno != EEXIST)
-			return jn_error(JN_IO_FAILED, "%s: cannot make this folder: %s", part, strerror(errno));
-	}
-	struct stat about;
-	if (stat(path, &about) != 0 || !S_ISDIR(about.st_mode))
-		return jn_error(JN_IO_FAILED, "%s: is no folder; choose another output with -o", path);
-	if (access(path, W_OK) != 0)
-		return jn_error(JN_IO_FAILED, "%s: cannot write here: %s; choose another output with -o", path,
-						strerror(errno));
-	return JN_OK;
-}
 
 static void count_step(JnRun* run) {
 	const JnReport* report = jn_sim_last_report(run->sim);
@@ -99,7 +75,7 @@ static JnStatus prepare(JnRun* run) {
 	const double began = jn_seconds();
 	JN_TRY(jn_scene_build(run->scene, run->options->threads, &run->sim));
 	JN_TRY(jn_run_describe(run));
-	JN_TRY(make_directory(run->options->directory));
+	JN_TRY(jn_folder_make(run->options->directory));
 	run->end.t_end = run->scene->def.sim.duration;
 	JN_TRY(jn_recorders_open(&run->recorders, &run->arena, &run->info));
 	run->recorders_are_open = true;

@@ -2,7 +2,9 @@
 
 #include <cblas.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 void jn_blas_prepare(void) {
 	openblas_set_num_threads(1);
@@ -40,3 +42,15 @@ const char* jn_blas_better_core(void) {
 	return NULL;
 }
 #endif
+
+// True when the variable has been added.
+static bool add_variable(const char* name, const char* value) {
+	return value != NULL && getenv(name) == NULL && setenv(name, value, 1) == 0;
+}
+
+void jn_blas_restart(char** arguments) {
+	const bool has_core = add_variable("OPENBLAS_CORETYPE", jn_blas_better_core());
+	const bool has_count = add_variable("OPENBLAS_NUM_THREADS", "1");
+	const bool has_policy = add_variable("OMP_WAIT_POLICY", "passive");
+	if (has_core || has_count || has_policy) execv("/proc/self/exe", arguments);
+}

@@ -16,4 +16,10 @@ void jn_blas_name(char* out, size_t size);
 /// processor; NULL when its choice is sane.
 const char* jn_blas_better_core(void);
 
+/// Two libraries read the environment when they are loaded, before main; where it lacks what serves us, start the program
+/// again with it: OPENBLAS_CORETYPE when OpenBLAS mistook the processor, OPENBLAS_NUM_THREADS=1, and OMP_WAIT_POLICY=passive,
+/// because threads that spin while they wait make a step on a busy machine several times slower. For programs, as the first
+/// call in main; what the user has set stays.
+void jn_blas_restart(char** arguments);
+
 #endif
