@@ -16,6 +16,7 @@ enum { ROOT, LINEAR };
 enum { REUSE_AUTO, REUSE_NEVER };
 enum { GUESS_ZERO, GUESS_LAST, GUESS_LINEAR };
 enum { MOST_HALVINGS = 12 };
+enum { ROUNDING_SLACK = 100 }; // multiples of the estimated rounding at which a search that finds no fall has arrived
 
 typedef struct Stage {
 	JnIntegrator* self;
@@ -163,7 +164,11 @@ static JnStatus iterate(Stage* stage, bool* must_refresh) {
 	}
 	stage->is_fresh = false;
 	*must_refresh = true;
-	return falls ? JN_OK : JN_NOT_CONVERGED;
+	if (falls) return JN_OK;
+	JN_TRY(back_to_origin(stage));
+	const bool is_rounding = stage->norm <= ROUNDING_SLACK * stage->sys->force_floor;
+	if (is_rounding) stage->tolerance = stage->norm; // nothing better is to be had
+	return is_rounding ? JN_OK : JN_NOT_CONVERGED;
 }
 
 // Would the iterations that are left with this contraction cost more than a new factor and two iterations with it?
@@ -264,7 +269,13 @@ JnStatus jn_stage_solve(JnIntegrator* self, JnSystem* sys, const JnStage* proble
 	stage.origin = work[JN_STAGE_ORIGIN];
 	JN_TRY(sys->ops->matrix(sys, (JnShift){.mass = 1}, &stage.mass));
 	first_guess(&stage);
-	JN_TRY(evaluate(&stage, &stage.norm));
+	JnStatus status = evaluate(&stage, &stage.norm);
+	if (status == JN_NOT_FINITE && self->recent_count > 0) { // the extrapolation left where forces are defined
+		self->recent_count = 0;
+		first_guess(&stage);
+		status = evaluate(&stage, &stage.norm);
+	}
+	JN_TRY(status);
 	const double scale = sys->force_scale > 0 ? sys->force_scale : stage.norm;
 	stage.tolerance = fmax(self->newton.tolerance * scale, sys->force_floor);
 	JN_TRY(self->newton.mode == LINEAR ? solve_linear(&stage) : solve_root(&stage));
