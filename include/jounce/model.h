@@ -56,6 +56,7 @@ typedef struct JnBodyDef {
 	int mass;           ///< 0 consistent, 1 lumped
 	JnDampingDef damping;
 	double velocity[3]; ///< of all free nodes at the start [m/s]
+	double spin[3];     ///< angular velocity at the start, about the centre of mass at rest; added to velocity [rad/s]
 	JnItems fix;        ///< JnFixDef
 	JnItems drive;      ///< JnDriveDef
 } JnBodyDef;

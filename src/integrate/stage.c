@@ -30,6 +30,7 @@ typedef struct Stage {
 	double norm, tolerance; // of the residual [N]
 	int secants;            // steps remembered since the last refresh
 	bool is_fresh;          // the tangent was made at the present a
+	bool is_careful;        // a new tangent at every iteration, whatever the options say
 	bool is_exact;          // directions by full solves: approximate ones did not serve
 } Stage;
 
@@ -173,8 +174,7 @@ static JnStatus iterate(Stage* stage, bool* must_refresh) {
 
 // Would the iterations that are left with this contraction cost more than a new factor and two iterations with it?
 static bool refresh_pays(Stage* stage, double contraction) {
-	if (stage->self->newton.reuse == REUSE_NEVER || contraction >= 0.9 || stage->secants >= JN_STAGE_SECANTS)
-		return true;
+	if (stage->is_careful || contraction >= 0.9 || stage->secants >= JN_STAGE_SECANTS) return true;
 	JnMatrix* matrix = NULL;
 	if (stage_matrix(stage, &matrix) != JN_OK) return true;
 	const double left = log(stage->tolerance / stage->norm) / log(contraction);
@@ -186,8 +186,8 @@ static bool refresh_pays(Stage* stage, double contraction) {
 // never twice as dear as the best possible.
 static JnStatus first_tangent(Stage* stage) {
 	JnIntegrator* self = stage->self;
-	stage->is_exact = self->newton.reuse == REUSE_NEVER;
-	if (self->linearized == 0 || stage->is_exact) return refresh(stage);
+	stage->is_exact = stage->is_careful;
+	if (self->linearized == 0 || stage->is_careful) return refresh(stage);
 	if (self->linearized > self->step_stamp) return JN_OK;
 	JnMatrix* matrix = NULL;
 	JN_TRY(stage_matrix(stage, &matrix));
@@ -248,6 +248,16 @@ static void first_guess(Stage* stage) {
 	space->ops->combine(space, stage->a, 2, (JnTerm[]){{1, stage->a}, {1, stage->problem->held}});
 }
 
+// What saves work on the usual stage may fail on a hard one: from zero acceleration, with a tangent of its own at each
+// iteration and full solves, before the controller has to cut the step.
+static JnStatus solve_carefully(Stage* stage) {
+	stage->self->recent_count = 0;
+	stage->is_careful = true;
+	first_guess(stage);
+	JN_TRY(evaluate(stage, &stage->norm));
+	return solve_root(stage);
+}
+
 static void keep_solution(Stage* stage) {
 	JnIntegrator* self = stage->self;
 	JnVec* recent = stage->work + JN_STAGE_RECENT;
@@ -278,7 +288,11 @@ JnStatus jn_stage_solve(JnIntegrator* self, JnSystem* sys, const JnStage* proble
 	JN_TRY(status);
 	const double scale = sys->force_scale > 0 ? sys->force_scale : stage.norm;
 	stage.tolerance = fmax(self->newton.tolerance * scale, sys->force_floor);
-	JN_TRY(self->newton.mode == LINEAR ? solve_linear(&stage) : solve_root(&stage));
+	stage.is_careful = self->newton.reuse == REUSE_NEVER;
+	status = self->newton.mode == LINEAR ? solve_linear(&stage) : solve_root(&stage);
+	const bool took_shortcuts = self->newton.mode == ROOT && (!stage.is_careful || self->newton.guess != GUESS_ZERO);
+	if (status == JN_NOT_CONVERGED && took_shortcuts) status = solve_carefully(&stage);
+	JN_TRY(status);
 	keep_solution(&stage);
 	report->residual = scale > 0 ? stage.norm / scale : 0;
 	return JN_OK;

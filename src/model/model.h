@@ -16,8 +16,9 @@ typedef struct JnBody {
 	int* cells;     ///< the same cells with the model's node numbers
 	JnGroup group;
 	JnDampingDef damping;
-	int mass_form; ///< 0 consistent, 1 lumped
-	double velocity[3], spin[3]; ///< at the start [m/s], [rad/s]
+	int mass_form;      ///< 0 consistent, 1 lumped
+	double velocity[3]; ///< at the start [m/s]
+	double spin[3];     ///< at the start [rad/s]
 } JnBody;
 
 /// One coordinate that does not follow the equations of motion.

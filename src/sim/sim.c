@@ -45,7 +45,10 @@ static JnStatus create_parts(JnSim* sim) {
 
 static JnStatus begin_first_step(JnSim* sim) {
 	sim->sys->report = &sim->report;
-	return sim->sys->ops->begin(sim->sys, &sim->start);
+	const JnStatus status = sim->sys->ops->begin(sim->sys, &sim->start);
+	if (status <= JN_OK) return status;
+	return jn_error(JN_BAD_INPUT, "the forces at the start cannot be evaluated: %s; start from another state",
+					jn_status_name(status));
 }
 
 static JnStatus create_with_model(JnSim* sim, const JnSimDef* def) {
