@@ -114,7 +114,8 @@ const JnKey jn_newton_keys[] = {
 	 .value = {60},
 	 .low = 1,
 	 .high = 10000,
-	 .meaning = "iterations a stage, before the step counts as failed"},
+	 .meaning =
+		 "iterations a stage; as many once more, from zero with a tangent each, before the step counts as failed"},
 	{.name = "reuse",
 	 .kind = JN_CHOICE,
 	 .field = offsetof(JnNewtonDef, reuse),

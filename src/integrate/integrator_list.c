@@ -4,6 +4,7 @@
 #include "integrate/composition.h"
 #include "integrate/dirk.h"
 #include "integrate/explicit_runge_kutta.h"
+#include "integrate/exponential.h"
 #include "integrate/integrator.h"
 #include "integrate/newmark.h"
 #include "integrate/rosenbrock.h"
@@ -43,6 +44,7 @@ static const JnRow* const rows[] = {
 	&jn_generalized_alpha.row,
 	&jn_bdf2.row,
 	&jn_average_vector_field.row,
+	&jn_exponential_rosenbrock.row,
 	// explicit and semi-implicit
 	&jn_explicit_euler.row,
 	&jn_symplectic_euler.row,

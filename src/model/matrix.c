@@ -80,7 +80,7 @@ static void apply(JnMatrix* base, const double* in, JnVec out) {
 	memset(out, 0, 3 * (size_t)model->node_count * sizeof *out);
 	if (model->mass_is_diagonal)
 		for (int k = 0; k < 3 * model->node_count; ++k) out[k] = shift.mass * model->nodal_mass[k / 3] * in[k];
-	else
+	else if (shift.mass != 0)
 		jn_scalars_apply(&model->pattern, model->mass, shift.mass, in, out, model->threads);
 	if (shift.damping != 0 && model->alpha_mass != NULL)
 		jn_scalars_apply(&model->pattern, model->alpha_mass, shift.damping, in, out, model->threads);
