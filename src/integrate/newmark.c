@@ -1,8 +1,9 @@
 // Newmark 1959, and its dissipative relatives HHT (Hilber, Hughes, Taylor 1977) and generalised alpha (Chung, Hulbert 1993):
 //   x1 = x0 + dt v0 + dt^2 ((1/2 - beta) a0 + beta a1),   v1 = v0 + dt ((1 - gamma) a0 + gamma a1)
-//   newmark            M a1 = f(t1, x1, v1)
-//   hht_alpha          M a1 = (1 + alpha) f(t1, x1, v1) - alpha f(t0, x0, v0)
-//   generalized_alpha  M ((1 - am) a1 + am a0) = f at (1 - af) of the end and af of the start
+//   newmark             M a1 = f(t1, x1, v1)
+//   linearized_newmark  the same with f(t1, x0, v0) and its tangent in place of f(t1, x1, v1)
+//   hht_alpha           M a1 = (1 + alpha) f(t1, x1, v1) - alpha f(t0, x0, v0)
+//   generalized_alpha   M ((1 - am) a1 + am a0) = f at (1 - af) of the end and af of the start
 //
 // Newmark's a0 is M^-1 f of the start, a pure function of it. In the two others a is a variable of its own, which equals
 // M^-1 f only to first order: they carry it from step to step. Deriving it anew would lower them to first order.
@@ -71,7 +72,7 @@ static JnStatus newmark_step(JnIntegrator* self, JnStep* step) {
 	return solve_end(self, step, *w, (JnStage){0});
 }
 
-// With f linearised about the start:  (M + gamma dt D + beta dt^2 K) a1 = f0 - K (x~ - x0) - D (v~ - v0),
+// With f linearised about (t1, x0, v0):  (M + gamma dt D + beta dt^2 K) a1 = f - K (x~ - x0) - D (v~ - v0),
 // where x~ and v~ are the predicted ones, those of held nodes being exact.
 static JnStatus linearized_step(JnIntegrator* self, JnStep* step) {
 	const Weights* w = self->options;
@@ -83,6 +84,10 @@ static JnStatus linearized_step(JnIntegrator* self, JnStep* step) {
 	JnMatrix *mass, *stiffness, *damping, *matrix;
 	start_step(self, step);
 	JN_TRY(jn_acceleration(self, sys, end, self->vectors[A0]));
+	if (sys->depends_on_time) { // loads are those of the end
+		end->t = step->start->t + dt;
+		jn_state_touch(space, end);
+	}
 	JN_TRY(sys->ops->force(sys, end, rhs));
 	JN_TRY(sys->ops->linearize(sys, end));
 	JN_TRY(sys->ops->matrix(sys, (JnShift){.mass = 1}, &mass));
