@@ -1,6 +1,8 @@
 // The benchmark of jounce: what the machine can do, the element kernels, assembly and solver, whole steps.
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "base/parallel.h"
 #include "bench.h"
