@@ -72,7 +72,8 @@ extern const JnKey jn_body_keys[];
 
 typedef struct JnModel JnModel;
 
-/// Build meshes, elements, mass and constraints. `threads` >= 1. On failure *model is NULL and a message says why.
+/// Build meshes, elements, mass and constraints. `threads` >= 1. On failure *model is NULL and a message says why. The
+/// options of motions and the names in `def` must outlive the model.
 JnStatus jn_model_create(const JnModelDef* def, int threads, JnModel** model);
 void jn_model_destroy(JnModel* model);
 
