@@ -62,8 +62,6 @@ struct JnGroup {
 	double* frozen; ///< [batches][points][frozen_reals][W], or NULL
 	double constants[JN_LAW_CONSTANTS];
 	double density; ///< [kg/m^3]
-	double alpha;   ///< Rayleigh damping, mass part [1/s]
-	double beta;    ///< Rayleigh damping, stiffness part [s]
 };
 
 /// The kernel of (shape, law) for the widest unit that this processor has, or for `width` lanes when that is not 0

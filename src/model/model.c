@@ -164,8 +164,6 @@ static JnStatus build_elements(const JnItems* defs, JnModel* model) {
 							def->material.row->name, jn_shape_info[body->mesh.shape].name);
 		JN_TRY(
 			jn_group_create(kernel, &body->mesh, body->first_node, def->material.options, &model->arena, &body->group));
-		body->group.alpha = def->damping.alpha;
-		body->group.beta = def->damping.beta;
 	}
 	return JN_OK;
 }

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 
 #include "base/log.h"
+#include "base/timer.h"
 #include "record/h5_file.h"
 #include "record/host.h"
 #include "record/recorder.h"
@@ -134,7 +135,7 @@ static JnStatus open_hdf5(JnRecorder* recorder, const JnRecordInfo* info) {
 		if (status != JN_OK) jn_h5_close(&hdf5->file);
 	}
 	if (status != JN_OK) free_buffers(hdf5);
-	hdf5->flushed = jn_host_clock();
+	hdf5->flushed = jn_seconds();
 	return status;
 }
 
@@ -151,7 +152,7 @@ static JnStatus append_series(Hdf5* hdf5) {
 	}
 	hdf5->length += count;
 	hdf5->buffered = 0;
-	hdf5->flushed = jn_host_clock();
+	hdf5->flushed = jn_seconds();
 	return JN_OK;
 }
 
@@ -178,7 +179,7 @@ static void buffer_row(Hdf5* hdf5, int column_count, const double* values) {
 static JnStatus write_hdf5(JnRecorder* recorder, const JnRecordStep* step) {
 	Hdf5* hdf5 = (Hdf5*)recorder;
 	if (step->values != NULL) buffer_row(hdf5, recorder->info->column_count, step->values);
-	const bool is_due = hdf5->buffered == BUFFERED_STEPS || jn_host_clock() - hdf5->flushed >= 1;
+	const bool is_due = hdf5->buffered == BUFFERED_STEPS || jn_seconds() - hdf5->flushed >= 1;
 	if (is_due) JN_TRY(append_series(hdf5));
 	if (step->is_frame) JN_TRY(write_frame(hdf5, step));
 	return is_due || step->is_frame ? jn_h5_flush(&hdf5->file) : JN_OK;

@@ -47,9 +47,3 @@ void jn_host_time(char out[32]) {
 	gmtime_r(&now, &parts);
 	strftime(out, 32, "%Y-%m-%dT%H:%M:%SZ", &parts);
 }
-
-double jn_host_clock(void) {
-	struct timespec now;
-	clock_gettime(CLOCK_MONOTONIC, &now);
-	return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}

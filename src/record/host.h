@@ -18,7 +18,4 @@ JnHost jn_host_describe(void);
 /// "2026-11-22T08:30:00Z": the time now, UTC.
 void jn_host_time(char out[32]);
 
-/// Seconds of a clock that only goes forward [s].
-double jn_host_clock(void);
-
 #endif

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/log.h"
+#include "base/timer.h"
 #include "record/host.h"
 #include "record/recorder.h"
 #include "record/text_file.h"
@@ -20,7 +21,7 @@ typedef struct Series {
 
 static JnStatus flush(Series* series) {
 	series->pending = 0;
-	series->flushed = jn_host_clock();
+	series->flushed = jn_seconds();
 	const JnStatus status = jn_text_flush(&series->file);
 	series->is_broken = status != JN_OK;
 	return status;
@@ -65,7 +66,7 @@ static JnStatus write_series(JnRecorder* recorder, const JnRecordStep* step) {
 	if (series->pending + length > BUFFER_BYTES) JN_TRY(flush(series));
 	jn_text_write(&series->file, series->line, length);
 	series->pending += length;
-	return jn_host_clock() - series->flushed >= 1 ? flush(series) : JN_OK;
+	return jn_seconds() - series->flushed >= 1 ? flush(series) : JN_OK;
 }
 
 static JnStatus close_series(JnRecorder* recorder, const JnRecordEnd* end) {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/log.h"
+#include "base/timer.h"
 #include "record/host.h"
 #include "record/recorder.h"
 #include "record/text_file.h"
@@ -60,7 +61,7 @@ static void print_frame(JnTextFile* file, const Xdmf* xdmf, long frame) {
 }
 
 static JnStatus write_file(Xdmf* xdmf) {
-	const double start = jn_host_clock();
+	const double start = jn_seconds();
 	JnTextFile file;
 	xdmf->is_broken = true; // until the file is closed
 	JN_TRY(jn_text_open(&file, xdmf->base.info->directory, "run.xdmf", JN_TEXT_REPLACE));
@@ -69,7 +70,7 @@ static JnStatus write_file(Xdmf* xdmf) {
 	for (long i = 0; i < xdmf->frame_count; i++) print_frame(&file, xdmf, i);
 	jn_text_print(&file, "\t\t</Grid>\n\t</Domain>\n</Xdmf>\n");
 	JN_TRY(jn_text_close(&file));
-	xdmf->written = jn_host_clock();
+	xdmf->written = jn_seconds();
 	xdmf->pause = fmax(1, COST_RATIO * (xdmf->written - start));
 	xdmf->is_broken = false;
 	return JN_OK;
@@ -99,7 +100,7 @@ static JnStatus write_xdmf(JnRecorder* recorder, const JnRecordStep* step) {
 	if (!step->is_frame) return JN_OK;
 	JN_TRY(add_time(xdmf, step->t));
 	const bool is_first = xdmf->frame_count == 1;
-	return is_first || jn_host_clock() - xdmf->written >= xdmf->pause ? write_file(xdmf) : JN_OK;
+	return is_first || jn_seconds() - xdmf->written >= xdmf->pause ? write_file(xdmf) : JN_OK;
 }
 
 static JnStatus close_xdmf(JnRecorder* recorder, const JnRecordEnd* end) {
