@@ -37,8 +37,24 @@ function(jounce_find name header package)
 	target_include_directories(jounce::${name} SYSTEM INTERFACE ${JN_${upper}_INCLUDE})
 endfunction()
 
-jounce_find(suitesparse cholmod.h libsuitesparse-dev LIBRARIES cholmod SUFFIXES suitesparse)
+jounce_find(suitesparse cholmod.h libsuitesparse-dev LIBRARIES cholmod umfpack SUFFIXES suitesparse)
 jounce_find(openblas cblas.h libopenblas-pthread-dev LIBRARIES openblas SUFFIXES openblas-pthread openblas)
 jounce_find(hdf5 hdf5.h libhdf5-dev ANY hdf5_serial hdf5 SUFFIXES hdf5/serial)
 jounce_find(yaml yaml.h libyaml-dev LIBRARIES yaml)
-set(JN_DEPENDENCIES jounce::suitesparse jounce::openblas jounce::hdf5 jounce::yaml)
+jounce_find(assimp assimp/cimport.h libassimp-dev LIBRARIES assimp)
+jounce_find(xml libxml/parser.h libxml2-dev LIBRARIES xml2 SUFFIXES libxml2)
+jounce_find(zlib zlib.h zlib1g-dev LIBRARIES z)
+set(JN_DEPENDENCIES jounce::suitesparse jounce::openblas jounce::hdf5 jounce::yaml jounce::assimp jounce::xml
+	jounce::zlib)
+
+# Gmsh is optional, and loaded when a scene first needs it: it brings some fifty libraries, whose start would be felt in
+# every run. JN_GMSH_LIBRARY is the name to load.
+find_path(JN_GMSH_INCLUDE gmshc.h)
+find_library(JN_GMSH_FILE gmsh)
+mark_as_advanced(JN_GMSH_INCLUDE JN_GMSH_FILE)
+if(JN_GMSH_INCLUDE AND JN_GMSH_FILE)
+	file(REAL_PATH ${JN_GMSH_FILE} gmsh_file)
+	cmake_path(GET gmsh_file FILENAME JN_GMSH_LIBRARY)
+else()
+	message(STATUS "without Gmsh: no tetrahedra from surfaces, no .msh files (Debian: apt-get install libgmsh-dev)")
+endif()

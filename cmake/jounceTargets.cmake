@@ -14,7 +14,12 @@ target_include_directories(jounce
 	PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
 	PRIVATE src)
 
-target_link_libraries(jounce PRIVATE $<BUILD_INTERFACE:jounce_flags> ${JN_DEPENDENCIES} OpenMP::OpenMP_C m)
+target_link_libraries(jounce PRIVATE $<BUILD_INTERFACE:jounce_flags> ${JN_DEPENDENCIES} OpenMP::OpenMP_C m
+	${CMAKE_DL_LIBS})
+if(JN_GMSH_LIBRARY)
+	target_include_directories(jounce SYSTEM PRIVATE ${JN_GMSH_INCLUDE})
+	target_compile_definitions(jounce PRIVATE JN_GMSH_LIBRARY="${JN_GMSH_LIBRARY}")
+endif()
 
 function(jounce_add_kernels width)
 	if(NOT JN_KERNEL_SOURCES)
@@ -34,7 +39,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
 	jounce_add_kernels(8 -mavx512f -mavx512dq -mavx512vl -mavx2 -mfma -mprefer-vector-width=512)
 endif()
 
-file(GLOB JN_COMMAND_SOURCES CONFIGURE_DEPENDS app/*.c)
+file(GLOB JN_COMMAND_SOURCES CONFIGURE_DEPENDS app/*.c app/*/*.c)
 if(JN_COMMAND_SOURCES)
 	add_executable(jounce_command ${JN_COMMAND_SOURCES})
 	set_target_properties(jounce_command PROPERTIES OUTPUT_NAME jounce INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")

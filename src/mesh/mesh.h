@@ -21,12 +21,22 @@ typedef struct JnShapeInfo {
 
 extern const JnShapeInfo jn_shape_info[JN_SHAPE_COUNT];
 
+/// Nodes that a file or a generator gave a name, such as the "plate" under a jello.
+typedef struct JnNodeSet {
+	const char* name;
+	int count;
+	int* nodes; ///< count node numbers, ascending
+} JnNodeSet;
+
 typedef struct JnMesh {
 	JnShape shape;
 	int node_count;
 	double* nodes; ///< 3 * node_count coordinates [m]
 	int cell_count;
 	int* cells; ///< cell_count * jn_shape_info[shape].nodes node numbers
+	int set_count;
+	JnNodeSet* sets;                     ///< set_count named sets; NULL: none
+	const struct JnEmbedding* embedding; ///< a finer surface that the cells carry along (embed.h); NULL: none
 } JnMesh;
 
 /// Volume of a cell by its straight-sided corners [m^3]; negative when it is inside out.

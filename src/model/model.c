@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/log.h"
-#include "mesh/generate.h"
+#include "mesh/shape.h"
 #include "model/mass.h"
 #include "model/select.h"
 #include "model/system.h"

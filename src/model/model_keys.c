@@ -1,7 +1,7 @@
 // The rows of a body in a scene file.
 #include "force/kernel.h"
 #include "jounce/model.h"
-#include "mesh/generate.h"
+#include "mesh/shape.h"
 #include "model/motion.h"
 
 static const char* const faces[] = {"none", "x-", "x+", "y-", "y+", "z-", "z+", "all", NULL};

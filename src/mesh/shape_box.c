@@ -3,7 +3,7 @@
 //
 // Nodes stand on a grid. That of tet10 is twice as fine: each of its points is a corner (all indices even) or the middle
 // of exactly one edge.
-#include "mesh/generate.h"
+#include "mesh/shape.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -140,11 +140,7 @@ static JnStatus generate_box(const void* options, const char* what, JnArena* are
 	return generate(options, what, arena, mesh);
 }
 
-static const JnShapeType box_type = {
+const JnShapeType jn_shape_box = {
 	.row = {"box", "A box along the axes.", box_keys, sizeof(JnBoxDef)},
 	.generate = generate_box,
 };
-
-static const JnRow* const shape_rows[] = {&box_type.row};
-
-const JnRowList jn_shape_list = {"shape", shape_rows, 1};

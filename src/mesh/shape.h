@@ -1,7 +1,7 @@
-/// @file generate.h
-/// Meshes made from a few numbers: boxes of hex8, tet4 and tet10 cells.
-#ifndef JN_MESH_GENERATE_H
-#define JN_MESH_GENERATE_H
+/// @file shape.h
+/// Where the mesh of a body comes from: one row a shape, generated from a few numbers or read from a file.
+#ifndef JN_MESH_SHAPE_H
+#define JN_MESH_SHAPE_H
 
 #include "jounce/extend.h"
 #include "mesh/mesh.h"
