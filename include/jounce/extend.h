@@ -14,10 +14,14 @@ extern "C" {
 
 /// What a key holds, and the type of the field that receives it.
 typedef enum JnKind {
-	JN_REAL,     ///< double; converted to the key's SI unit
-	JN_INTEGER,  ///< int
-	JN_SWITCH,   ///< bool: true, false, yes, no, on, off
-	JN_TEXT,     ///< const char*, owned by the scene; NULL when there is neither value nor default
+	JN_REAL,    ///< double; converted to the key's SI unit
+	JN_INTEGER, ///< int
+	JN_SWITCH,  ///< bool: true, false, yes, no, on, off
+	JN_TEXT,    ///< const char*, owned by the scene; NULL when there is neither value nor default
+	JN_PATH,    ///< like JN_TEXT, a file: a relative path is taken from the folder of the scene file that says it, and
+	///< from the current folder in an override
+	JN_REAL2,    ///< double[2], each with the key's unit; NAN in both when absent without default
+	JN_INTEGER2, ///< int[2]
 	JN_REAL3,    ///< double[3], each with the key's unit; NAN in all three when absent without default
 	JN_INTEGER3, ///< int[3]
 	JN_POINTS,   ///< JnPoints: a list of [time, value] pairs; times in s, values in the key's unit
@@ -75,12 +79,12 @@ struct JnKey {
 	const char* name;
 	JnKind kind;
 	size_t field;        ///< offsetof the field in the struct that the table fills
-	double value[3];     ///< default of REAL, INTEGER, SWITCH, CHOICE (index), REAL3, INTEGER3; ignored if required
+	double value[3];     ///< default of REAL, INTEGER, SWITCH, CHOICE (index) and lists of 2 or 3; ignored if required
 	const char* text;    ///< default of TEXT, or the name of the default row of a VARIANT; NULL: none
 	double low, high;    ///< inclusive bounds of numbers (each component), SI; both 0: unbounded
 	JnOpen open;         ///< bounds that are exclusive
 	bool required;       ///< must be given in the file
-	bool absent_allowed; ///< REAL, REAL3: default is NAN, meaning "not given"
+	bool absent_allowed; ///< REAL, REAL2, REAL3: default is NAN, meaning "not given"
 	const char* unit;    ///< SI unit such as "m/s^2"; NULL or "": a pure number
 	const char* const* names; ///< CHOICE: the words, NULL at the end
 	const JnKey* keys;        ///< OBJECT, OPTIONAL, LIST: keys of the nested struct
@@ -161,6 +165,7 @@ struct JnSystem {
 	bool mass_is_diagonal;  ///< M^-1 is a division
 	bool depends_on_time;   ///< forces or held nodes change with t at fixed x and v
 	bool is_linear_in_step; ///< forces are linear in x and v between two begin()s
+	bool has_potential;     ///< f = -(gradient of energy) - D v at any fixed t, D symmetric and constant between two begin()s
 	JnReport* report;       ///< where the system counts its work; set by whoever steps it, never NULL during a step
 };
 
@@ -225,7 +230,9 @@ typedef struct JnIntegratorType {
 
 /// Keys of `newton:` in a scene: how the stage problem is solved.
 typedef struct JnNewtonDef {
-	int mode;           ///< 0 root: Newton on the residual; 1 linear: one Newton step from a = 0
+	/// 0 root: Newton on the residual; 1 linear: one Newton step from a = 0; 2 minimize: Newton on the energy whose gradient
+	/// the residual is; 3 auto: root, and minimize where it stalls
+	int mode;
 	double tolerance;   ///< residual norm relative to the system's force scale
 	int max_iterations; ///< a stage
 	int reuse;          ///< 0 auto: keep K and its factor while they serve; 1 never

@@ -23,6 +23,9 @@ static const char* const kind_names[] = {
 	[JN_INTEGER] = "whole number",
 	[JN_SWITCH] = "true or false",
 	[JN_TEXT] = "text",
+	[JN_PATH] = "path of a file",
+	[JN_REAL2] = "two numbers",
+	[JN_INTEGER2] = "two whole numbers",
 	[JN_REAL3] = "three numbers",
 	[JN_INTEGER3] = "three whole numbers",
 	[JN_POINTS] = "[time, value] pairs",
@@ -47,6 +50,10 @@ static void default_text(const JnKey* key, size_t size, char* text) {
 	case JN_INTEGER:
 		snprintf(text, size, "%.10g", value[0]);
 		break;
+	case JN_REAL2:
+	case JN_INTEGER2:
+		snprintf(text, size, "[%.10g, %.10g]", value[0], value[1]);
+		break;
 	case JN_REAL3:
 	case JN_INTEGER3:
 		snprintf(text, size, "[%.10g, %.10g, %.10g]", value[0], value[1], value[2]);
@@ -58,6 +65,7 @@ static void default_text(const JnKey* key, size_t size, char* text) {
 		snprintf(text, size, "%s", key->names[(int)value[0]]);
 		break;
 	case JN_TEXT:
+	case JN_PATH:
 	case JN_VARIANT:
 		snprintf(text, size, "%s", key->text != NULL ? key->text : "");
 		break;

@@ -152,12 +152,14 @@ typedef JnStatus (*ReadField)(JnKeyReader* reader, const JnKey* key, const JnNod
 static const struct {
 	ReadField read, nest;
 } kinds[] = {
-	[JN_REAL] = {.read = jn_read_real},     [JN_INTEGER] = {.read = jn_read_integer},
-	[JN_SWITCH] = {.read = jn_read_switch}, [JN_TEXT] = {.read = jn_read_text},
-	[JN_REAL3] = {.read = jn_read_real3},   [JN_INTEGER3] = {.read = jn_read_integer3},
-	[JN_POINTS] = {.read = jn_read_points}, [JN_CHOICE] = {.read = jn_read_choice},
-	[JN_OBJECT] = {.nest = read_object},    [JN_OPTIONAL] = {.nest = read_optional},
-	[JN_LIST] = {.nest = read_list},        [JN_VARIANT] = {.nest = read_variant},
+	[JN_REAL] = {.read = jn_read_real},         [JN_INTEGER] = {.read = jn_read_integer},
+	[JN_SWITCH] = {.read = jn_read_switch},     [JN_TEXT] = {.read = jn_read_text},
+	[JN_PATH] = {.read = jn_read_path},         [JN_REAL3] = {.read = jn_read_real3},
+	[JN_INTEGER3] = {.read = jn_read_integer3}, [JN_POINTS] = {.read = jn_read_points},
+	[JN_REAL2] = {.read = jn_read_real2},       [JN_INTEGER2] = {.read = jn_read_integer2},
+	[JN_CHOICE] = {.read = jn_read_choice},     [JN_OBJECT] = {.nest = read_object},
+	[JN_OPTIONAL] = {.nest = read_optional},    [JN_LIST] = {.nest = read_list},
+	[JN_VARIANT] = {.nest = read_variant},
 };
 
 // `null` leaves an optional part out: the way to switch it off from the command line.

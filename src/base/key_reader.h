@@ -46,6 +46,9 @@ JnStatus jn_read_real(JnKeyReader* reader, const JnKey* key, const JnNode* node,
 JnStatus jn_read_integer(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
 JnStatus jn_read_switch(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
 JnStatus jn_read_text(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
+JnStatus jn_read_path(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
+JnStatus jn_read_real2(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
+JnStatus jn_read_integer2(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
 JnStatus jn_read_real3(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
 JnStatus jn_read_integer3(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
 JnStatus jn_read_points(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);

@@ -78,16 +78,35 @@ JnStatus jn_read_text(JnKeyReader* reader, const JnKey* key, const JnNode* node,
 	return copy != NULL ? JN_OK : JN_OUT_OF_MEMORY;
 }
 
+JnStatus jn_read_path(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field) {
+	const char* path = NULL;
+	JN_TRY(jn_read_text(reader, key, node, &path));
+	if (path[0] == '\0') return jn_key_error(reader, node, "is empty, but the path of a file is expected");
+	const char* slash = node->line > 0 ? strrchr(node->source, '/') : NULL; // an override has no line, and no folder
+	const bool is_beside = path[0] != '/' && slash != NULL;
+	const int folder = is_beside ? (int)(slash - node->source) + 1 : 0;
+	const size_t length = (size_t)folder + strlen(path) + 1;
+	char* whole = jn_arena_take(reader->arena, length, 1);
+	if (whole == NULL) return JN_OUT_OF_MEMORY;
+	snprintf(whole, length, "%.*s%s", folder, node->source, path);
+	*(const char**)field = whole;
+	return JN_OK;
+}
+
 typedef JnStatus (*ReadValue)(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
 
-static JnStatus read_triple(JnKeyReader* reader, const JnKey* key, const JnNode* node, ReadValue read, size_t size,
-							char* fields) {
+static JnStatus read_tuple(JnKeyReader* reader, const JnKey* key, const JnNode* node, ReadValue read, int count,
+						   size_t size, char* fields) {
+	const char* number = count == 2 ? "two" : "three";
 	if (node->kind != JN_NODE_SEQUENCE) {
-		return jn_key_kind_error(reader, node, "a list of three numbers is expected, such as [1, 2, 3]");
+		char expected[96];
+		snprintf(expected, sizeof expected, "a list of %s numbers is expected, such as [1, 2%s]", number,
+				 count == 2 ? "" : ", 3");
+		return jn_key_kind_error(reader, node, expected);
 	}
-	if (node->count != 3)
-		return jn_key_error(reader, node, "is a list of %d, but three numbers are expected", node->count);
-	for (int i = 0; i < 3; i++) {
+	if (node->count != count)
+		return jn_key_error(reader, node, "is a list of %d, but %s numbers are expected", node->count, number);
+	for (int i = 0; i < count; i++) {
 		const size_t mark = jn_key_enter(reader, NULL, i);
 		JN_TRY(read(reader, key, node->children[i], fields + (size_t)i * size));
 		jn_key_leave(reader, mark);
@@ -95,12 +114,20 @@ static JnStatus read_triple(JnKeyReader* reader, const JnKey* key, const JnNode*
 	return JN_OK;
 }
 
+JnStatus jn_read_real2(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field) {
+	return read_tuple(reader, key, node, jn_read_real, 2, sizeof(double), field);
+}
+
+JnStatus jn_read_integer2(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field) {
+	return read_tuple(reader, key, node, jn_read_integer, 2, sizeof(int), field);
+}
+
 JnStatus jn_read_real3(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field) {
-	return read_triple(reader, key, node, jn_read_real, sizeof(double), field);
+	return read_tuple(reader, key, node, jn_read_real, 3, sizeof(double), field);
 }
 
 JnStatus jn_read_integer3(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field) {
-	return read_triple(reader, key, node, jn_read_integer, sizeof(int), field);
+	return read_tuple(reader, key, node, jn_read_integer, 3, sizeof(int), field);
 }
 
 static JnStatus read_point(JnKeyReader* reader, const JnKey* key, const JnNode* node, double point[2]) {
@@ -160,6 +187,9 @@ JnStatus jn_default_value(JnKeyReader* reader, const JnKey* key, void* field) {
 	case JN_REAL:
 		fill_reals(key, is_known, 1, field);
 		break;
+	case JN_REAL2:
+		fill_reals(key, is_known, 2, field);
+		break;
 	case JN_REAL3:
 		fill_reals(key, is_known, 3, field);
 		break;
@@ -167,11 +197,15 @@ JnStatus jn_default_value(JnKeyReader* reader, const JnKey* key, void* field) {
 		*(bool*)field = is_known && key->value[0] != 0;
 		break;
 	case JN_TEXT:
+	case JN_PATH:
 		*(const char**)field = key->text != NULL && is_known ? jn_arena_text(reader->arena, key->text) : NULL;
 		return *(const char**)field == NULL && key->text != NULL && is_known ? JN_OUT_OF_MEMORY : JN_OK;
 	case JN_INTEGER:
 	case JN_CHOICE:
 		*(int*)field = is_known ? (int)key->value[0] : 0;
+		break;
+	case JN_INTEGER2:
+		for (int i = 0; i < 2; i++) ((int*)field)[i] = is_known ? (int)key->value[i] : 0;
 		break;
 	case JN_INTEGER3:
 		for (int i = 0; i < 3; i++) ((int*)field)[i] = is_known ? (int)key->value[i] : 0;
