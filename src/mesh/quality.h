@@ -14,6 +14,8 @@ typedef struct JnQuality {
 } JnQuality;
 
 double jn_cell_quality(const JnMesh* mesh, int cell);
+
+/// Of all cells; `worst` is -1 and the numbers are 0 when there are none. JN_OUT_OF_MEMORY.
 JnStatus jn_mesh_quality(const JnMesh* mesh, JnQuality* quality);
 
 #endif
