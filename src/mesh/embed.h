@@ -14,7 +14,10 @@ typedef struct JnEmbedding {
 } JnEmbedding;
 
 /// Find the cell and the weights of every vertex of a surface in a hex8 or tet4 mesh. A vertex outside all cells follows
-/// the nearest one. JN_BAD_INPUT, after a message, when a vertex lies farther out than the size of that cell.
+/// the nearest one, along the slope of its shape functions at the nearest point: its weights may be negative. Any affine
+/// motion of the nodes moves all vertices by the same. Everything, the surface too, is copied into the arena.
+/// JN_BAD_INPUT, after a message that begins with `what`, when a vertex lies farther out than the longest side of that
+/// cell's bounding box, when a cell has no volume, and for tet10.
 JnStatus jn_embedding_create(const JnSurface* surface, const JnMesh* mesh, const char* what, JnArena* arena,
 							 JnEmbedding** embedding);
 
