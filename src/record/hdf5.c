@@ -2,8 +2,10 @@
 //
 //   /mesh/nodes [n,3]            rest positions [m]        /frames/00000000/position [n,3]  [m]
 //   /mesh/<body>/cells [c,k]     global node numbers       /frames/00000000/velocity [n,3]  [m/s]
+//   /mesh/<body>/surface/...     see surface.c             /frames/00000000/surface [p,3]   [m], if one is embedded
 //   /topology/cells, body        all bodies, for XDMF      /series/<column> [steps]         one value a step
-//   /scene                       the scene file's text     attributes of /: who, where, when, outcome
+//   /topology/surface, ..._body  their triangles           attributes of /: who, where, when, outcome
+//   /scene                       the scene file's text
 #include <stdlib.h>
 
 #include "base/log.h"
@@ -11,6 +13,7 @@
 #include "record/h5_file.h"
 #include "record/host.h"
 #include "record/recorder.h"
+#include "record/surface.h"
 #include "record/topology.h"
 
 enum { BUFFERED_STEPS = 256 };
@@ -21,6 +24,7 @@ typedef struct Hdf5 {
 	hid_t* datasets; // one a column
 	double* values;  // [column][BUFFERED_STEPS]
 	int64_t* counts; // BUFFERED_STEPS, for the columns that are counts
+	double* points;  // positions of the surfaces' points; NULL when they are the nodes
 	int buffered;    // steps in `values`
 	hsize_t length;  // steps in the file
 	long frame_count;
@@ -63,7 +67,8 @@ static JnStatus write_mesh(JnH5File* file, const JnRecordInfo* info) {
 	JN_TRY(jn_h5_array(file, "/mesh/nodes", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, info->nodes));
 	JN_TRY(jn_h5_attribute_text(file, "/mesh/nodes", "unit", "m"));
 	JN_TRY(write_bodies(file, info));
-	return write_topology(file, info);
+	JN_TRY(write_topology(file, info));
+	return jn_record_surface_write(file, info);
 }
 
 static JnStatus write_facts(JnH5File* file, const JnRecordInfo* info) {
@@ -117,18 +122,24 @@ static void free_buffers(Hdf5* hdf5) {
 	free(hdf5->datasets);
 	free(hdf5->values);
 	free(hdf5->counts);
+	free(hdf5->points);
+}
+
+static JnStatus take_buffers(Hdf5* hdf5, const JnRecordInfo* info) {
+	const size_t columns = (size_t)info->column_count + 1; // never a malloc of nothing
+	const bool has_points = jn_record_has_embedding(info);
+	hdf5->datasets = malloc(columns * sizeof *hdf5->datasets);
+	hdf5->values = malloc(columns * BUFFERED_STEPS * sizeof *hdf5->values);
+	hdf5->counts = malloc(BUFFERED_STEPS * sizeof *hdf5->counts);
+	if (has_points) hdf5->points = malloc((3 * (size_t)jn_record_points(info) + 1) * sizeof *hdf5->points);
+	if (hdf5->datasets != NULL && hdf5->values != NULL && hdf5->counts != NULL && has_points == (hdf5->points != NULL))
+		return JN_OK;
+	return jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for the series and surfaces of run.h5");
 }
 
 static JnStatus open_hdf5(JnRecorder* recorder, const JnRecordInfo* info) {
 	Hdf5* hdf5 = (Hdf5*)recorder;
-	const size_t columns = (size_t)info->column_count + 1; // never a malloc of nothing
-	hdf5->datasets = malloc(columns * sizeof *hdf5->datasets);
-	hdf5->values = malloc(columns * BUFFERED_STEPS * sizeof *hdf5->values);
-	hdf5->counts = malloc(BUFFERED_STEPS * sizeof *hdf5->counts);
-	JnStatus status = JN_OK;
-	if (hdf5->datasets == NULL || hdf5->values == NULL || hdf5->counts == NULL) {
-		status = jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for the series of run.h5");
-	}
+	JnStatus status = take_buffers(hdf5, info);
 	if (status == JN_OK) status = jn_h5_create(&hdf5->file, info->directory, "run.h5");
 	if (status == JN_OK) {
 		status = write_start(hdf5, info);
@@ -156,6 +167,15 @@ static JnStatus append_series(Hdf5* hdf5) {
 	return JN_OK;
 }
 
+static JnStatus write_points(Hdf5* hdf5, const char* group, const double* x) {
+	if (hdf5->points == NULL) return JN_OK;
+	const hsize_t dims[2] = {(hsize_t)jn_record_points(hdf5->base.info), 3};
+	char name[80];
+	snprintf(name, sizeof name, "%s/surface", group);
+	jn_record_surface_positions(hdf5->base.info, x, hdf5->points);
+	return jn_h5_array(&hdf5->file, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, hdf5->points);
+}
+
 static JnStatus write_frame(Hdf5* hdf5, const JnRecordStep* step) {
 	JnH5File* file = &hdf5->file;
 	const hsize_t dims[2] = {(hsize_t)hdf5->base.info->node_count, 3};
@@ -165,6 +185,7 @@ static JnStatus write_frame(Hdf5* hdf5, const JnRecordStep* step) {
 	snprintf(velocity, sizeof velocity, "%s/velocity", group);
 	JN_TRY(jn_h5_array(file, position, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, step->x));
 	JN_TRY(jn_h5_array(file, velocity, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, step->v));
+	JN_TRY(write_points(hdf5, group, step->x));
 	JN_TRY(jn_h5_attribute_real(file, group, "time", step->t));
 	JN_TRY(jn_h5_attribute_integer(file, group, "step", step->step));
 	hdf5->frame_count++;

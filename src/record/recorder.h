@@ -5,6 +5,7 @@
 
 #include "base/arena.h"
 #include "jounce/base.h"
+#include "mesh/embed.h"
 #include "mesh/mesh.h"
 
 /// One column of the per-step series.
@@ -21,6 +22,9 @@ typedef struct JnRecordBody {
 	int first_node, node_count;
 	int cell_count;
 	const int* cells; ///< global node numbers
+	int triangle_count;
+	const int* triangles; ///< the surface: with global node numbers, or those of the embedded surface's vertices
+	const JnEmbedding* embedding; ///< the surface that the cells carry along; NULL: it is made of faces of cells
 } JnRecordBody;
 
 /// All that stays constant over a run.
@@ -57,7 +61,7 @@ typedef struct JnRecordEnd {
 	const char* message; ///< one line, or ""
 	double wall_seconds; ///< time spent stepping
 	double setup_seconds;
-	long steps, frames, rejected, newton, factorizations, solves, forces, tangents, indefinite;
+	long steps, frames, rejected, newton, factorizations, solves, forces, tangents, indefinite, minimized;
 	double t, t_end;                           ///< reached and wanted [s]
 	double specific_error, specific_error_max; ///< |e_tot(t) - e_tot(0)|, at the end and largest [J/kg]
 } JnRecordEnd;

@@ -105,6 +105,7 @@ static void print_counts(JnTextFile* file, const JnRecordInfo* info, const JnRec
 		{"newton", end->newton},      {"factorizations", end->factorizations},
 		{"solves", end->solves},      {"forces", end->forces},
 		{"tangents", end->tangents},  {"indefinite", end->indefinite},
+		{"minimized", end->minimized},
 		{"threads", info->threads},   {"simd_width", info->simd_width},
 	};
 	for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {

@@ -1,6 +1,7 @@
-// run.xdmf: how ParaView and meshio find their way through run.h5. A temporal collection with one grid a frame, in
-// which position stands twice: as geometry, which ParaView shows deformed, and as point data, because meshio takes the
-// points of the first frame for all. The file on disk is complete at any time.
+// run.xdmf and surface.xdmf: how ParaView and meshio find their way through run.h5, to the cells and to the surfaces of
+// the bodies. A temporal collection with one grid a frame, in which position stands twice: as geometry, which ParaView
+// shows deformed, and as point data, because meshio takes the points of the first frame for all. The files on disk are
+// complete at any time.
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,68 +9,118 @@
 #include "base/timer.h"
 #include "record/host.h"
 #include "record/recorder.h"
+#include "record/surface.h"
 #include "record/text_file.h"
 #include "record/topology.h"
 
-enum { COST_RATIO = 50 }; // rewriting the file takes at most 1/50 of the run
+enum { COST_RATIO = 50 }; // rewriting the files takes at most 1/50 of the run
+
+// One of the files: what stays the same in its grids.
+typedef struct XdmfView {
+	const char* file_name; // "run.xdmf"
+	const char* shape;     // XDMF topology type
+	const char *cells, *bodies;
+	long cell_count, rows, row_length; // row_length 0: one dimension
+	long point_count;
+	int vector_count;
+	const char* vectors[2][2]; // name and dataset of a frame; the first is the geometry
+} XdmfView;
+
+enum { VIEWS = 2 };
 
 typedef struct Xdmf {
 	JnRecorder base;
-	JnTopology topology; // sizes only
-	double* times;       // of the frames [s]
+	XdmfView views[VIEWS];
+	double* times; // of the frames [s]
 	long frame_count, capacity;
 	double written; // clock after the last writing [s]
 	double pause;   // until the next one [s]
 	bool is_broken; // a failure has been told
 } Xdmf;
 
-static void print_topology(JnTextFile* file, const JnTopology* topology) {
-	jn_text_print(file, "\t\t\t\t<Topology TopologyType=\"%s\" NumberOfElements=\"%ld\">\n", topology->name,
-				  topology->cell_count);
-	jn_text_print(file, "\t\t\t\t\t<DataItem Dimensions=\"%ld", topology->rows);
-	if (!topology->is_mixed) jn_text_print(file, " %ld", topology->row_length);
-	jn_text_print(file, "\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">run.h5:/topology/cells</DataItem>\n"
-						"\t\t\t\t</Topology>\n");
+static XdmfView view_of_cells(const JnRecordInfo* info) {
+	const JnTopology topology = jn_topology_measure(info);
+	return (XdmfView){
+		.file_name = "run.xdmf",
+		.shape = topology.name,
+		.cells = "cells",
+		.bodies = "body",
+		.cell_count = topology.cell_count,
+		.rows = topology.rows,
+		.row_length = topology.is_mixed ? 0 : topology.row_length,
+		.point_count = info->node_count,
+		.vector_count = 2,
+		.vectors = {{"position", "position"}, {"velocity", "velocity"}},
+	};
 }
 
-static void print_vector(JnTextFile* file, long frame, int node_count, const char* name) {
+static XdmfView view_of_surface(const JnRecordInfo* info) {
+	return (XdmfView){
+		.file_name = "surface.xdmf",
+		.shape = "Triangle",
+		.cells = "surface",
+		.bodies = "surface_body",
+		.cell_count = jn_record_triangles(info),
+		.rows = jn_record_triangles(info),
+		.row_length = 3,
+		.point_count = jn_record_points(info),
+		.vector_count = 1,
+		.vectors = {{"position", jn_record_has_embedding(info) ? "surface" : "position"}},
+	};
+}
+
+static void print_topology(JnTextFile* file, const XdmfView* view) {
+	jn_text_print(file, "\t\t\t\t<Topology TopologyType=\"%s\" NumberOfElements=\"%ld\">\n", view->shape,
+				  view->cell_count);
+	jn_text_print(file, "\t\t\t\t\t<DataItem Dimensions=\"%ld", view->rows);
+	if (view->row_length > 0) jn_text_print(file, " %ld", view->row_length);
 	jn_text_print(file,
-				  "\t\t\t\t\t<DataItem Dimensions=\"%d 3\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"
-				  "run.h5:/frames/%08ld/%s</DataItem>\n",
-				  node_count, frame, name);
+				  "\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">run.h5:/topology/%s</DataItem>\n"
+				  "\t\t\t\t</Topology>\n",
+				  view->cells);
 }
 
-static void print_frame(JnTextFile* file, const Xdmf* xdmf, long frame) {
-	const int node_count = xdmf->base.info->node_count;
+static void print_vector(JnTextFile* file, const XdmfView* view, long frame, const char* dataset) {
+	jn_text_print(file,
+				  "\t\t\t\t\t<DataItem Dimensions=\"%ld 3\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"
+				  "run.h5:/frames/%08ld/%s</DataItem>\n",
+				  view->point_count, frame, dataset);
+}
+
+static void print_frame(JnTextFile* file, const XdmfView* view, long frame, double time) {
 	jn_text_print(file, "\t\t\t<Grid Name=\"frame %ld\" GridType=\"Uniform\">\n", frame);
-	jn_text_print(file, "\t\t\t\t<Time Value=\"%.17g\"/>\n", xdmf->times[frame]);
-	print_topology(file, &xdmf->topology);
+	jn_text_print(file, "\t\t\t\t<Time Value=\"%.17g\"/>\n", time);
+	print_topology(file, view);
 	jn_text_print(file, "\t\t\t\t<Geometry GeometryType=\"XYZ\">\n");
-	print_vector(file, frame, node_count, "position");
+	print_vector(file, view, frame, view->vectors[0][1]);
 	jn_text_print(file, "\t\t\t\t</Geometry>\n");
-	const char* const names[] = {"position", "velocity"};
-	for (int i = 0; i < 2; i++) {
-		jn_text_print(file, "\t\t\t\t<Attribute Name=\"%s\" AttributeType=\"Vector\" Center=\"Node\">\n", names[i]);
-		print_vector(file, frame, node_count, names[i]);
+	for (int i = 0; i < view->vector_count; i++) {
+		jn_text_print(file, "\t\t\t\t<Attribute Name=\"%s\" AttributeType=\"Vector\" Center=\"Node\">\n",
+					  view->vectors[i][0]);
+		print_vector(file, view, frame, view->vectors[i][1]);
 		jn_text_print(file, "\t\t\t\t</Attribute>\n");
 	}
 	jn_text_print(file,
 				  "\t\t\t\t<Attribute Name=\"body\" AttributeType=\"Scalar\" Center=\"Cell\">\n"
 				  "\t\t\t\t\t<DataItem Dimensions=\"%ld\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">"
-				  "run.h5:/topology/body</DataItem>\n\t\t\t\t</Attribute>\n\t\t\t</Grid>\n",
-				  xdmf->topology.cell_count);
+				  "run.h5:/topology/%s</DataItem>\n\t\t\t\t</Attribute>\n\t\t\t</Grid>\n",
+				  view->cell_count, view->bodies);
 }
 
-static JnStatus write_file(Xdmf* xdmf) {
-	const double start = jn_seconds();
+static JnStatus write_file(const Xdmf* xdmf, const XdmfView* view) {
 	JnTextFile file;
-	xdmf->is_broken = true; // until the file is closed
-	JN_TRY(jn_text_open(&file, xdmf->base.info->directory, "run.xdmf", JN_TEXT_REPLACE));
+	JN_TRY(jn_text_open(&file, xdmf->base.info->directory, view->file_name, JN_TEXT_REPLACE));
 	jn_text_print(&file, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"3.0\">\n\t<Domain>\n"
 						 "\t\t<Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
-	for (long i = 0; i < xdmf->frame_count; i++) print_frame(&file, xdmf, i);
+	for (long i = 0; i < xdmf->frame_count; i++) print_frame(&file, view, i, xdmf->times[i]);
 	jn_text_print(&file, "\t\t</Grid>\n\t</Domain>\n</Xdmf>\n");
-	JN_TRY(jn_text_close(&file));
+	return jn_text_close(&file);
+}
+
+static JnStatus write_files(Xdmf* xdmf) {
+	const double start = jn_seconds();
+	xdmf->is_broken = true; // until all are closed
+	for (int i = 0; i < VIEWS; i++) JN_TRY(write_file(xdmf, &xdmf->views[i]));
 	xdmf->written = jn_seconds();
 	xdmf->pause = fmax(1, COST_RATIO * (xdmf->written - start));
 	xdmf->is_broken = false;
@@ -78,8 +129,9 @@ static JnStatus write_file(Xdmf* xdmf) {
 
 static JnStatus open_xdmf(JnRecorder* recorder, const JnRecordInfo* info) {
 	Xdmf* xdmf = (Xdmf*)recorder;
-	xdmf->topology = jn_topology_measure(info);
-	return write_file(xdmf);
+	xdmf->views[0] = view_of_cells(info);
+	xdmf->views[1] = view_of_surface(info);
+	return write_files(xdmf);
 }
 
 static JnStatus add_time(Xdmf* xdmf, double t) {
@@ -100,20 +152,20 @@ static JnStatus write_xdmf(JnRecorder* recorder, const JnRecordStep* step) {
 	if (!step->is_frame) return JN_OK;
 	JN_TRY(add_time(xdmf, step->t));
 	const bool is_first = xdmf->frame_count == 1;
-	return is_first || jn_seconds() - xdmf->written >= xdmf->pause ? write_file(xdmf) : JN_OK;
+	return is_first || jn_seconds() - xdmf->written >= xdmf->pause ? write_files(xdmf) : JN_OK;
 }
 
 static JnStatus close_xdmf(JnRecorder* recorder, const JnRecordEnd* end) {
 	Xdmf* xdmf = (Xdmf*)recorder;
 	(void)end;
-	const JnStatus status = xdmf->is_broken ? JN_IO_FAILED : write_file(xdmf);
+	const JnStatus status = xdmf->is_broken ? JN_IO_FAILED : write_files(xdmf);
 	free(xdmf->times);
 	return status;
 }
 
 const JnRecorderType jn_recorder_xdmf = {
 	.name = "xdmf",
-	.doc = "run.xdmf: the frames of run.h5 for ParaView and meshio",
+	.doc = "run.xdmf and surface.xdmf: the frames of run.h5 for ParaView and meshio, as cells and as surfaces",
 	.size = sizeof(Xdmf),
 	.open = open_xdmf,
 	.write = write_xdmf,

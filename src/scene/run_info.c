@@ -3,7 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "mesh/boundary.h"
+#include "mesh/embed.h"
 #include "model/model.h"
+#include "scene/place.h"
 #include "scene/run.h"
 #include "solve/blas.h"
 
@@ -21,6 +24,7 @@ static const JnColumn fixed_columns[] = {
 	{"factorizations", "", true},
 	{"solves", "", true},
 	{"rejected", "", true},
+	{"minimized", "", true},
 	{"momentum.x", "kg m/s", false},
 	{"momentum.y", "kg m/s", false},
 	{"momentum.z", "kg m/s", false},
@@ -30,17 +34,27 @@ static const JnColumn fixed_columns[] = {
 };
 enum { FIXED_COLUMNS = sizeof fixed_columns / sizeof *fixed_columns };
 
+static JnStatus find_probes(JnRun* run, const JnModel* model) {
+	const JnItems* defs = &run->scene->def.probes;
+	JnPlacing placing;
+	JN_NEW(&run->arena, run->probes, defs->count + 1);
+	jn_placing_begin(&placing, &run->scene->document);
+	JnStatus status = JN_OK;
+	for (int i = 0; i < defs->count && status == JN_OK; ++i)
+		status = jn_probe_create((const JnProbeDef*)defs->data + i, i, model, &run->arena, &run->probes[i]);
+	jn_placing_end(&placing);
+	return status;
+}
+
 static JnStatus name_columns(JnRun* run) {
 	const JnItems* probes = &run->scene->def.probes;
 	JnColumn* columns;
 	run->info.column_count = FIXED_COLUMNS + 3 * probes->count;
 	JN_NEW(&run->arena, columns, run->info.column_count);
 	JN_NEW(&run->arena, run->values, run->info.column_count);
-	JN_NEW(&run->arena, run->probe_nodes, probes->count + 1);
 	memcpy(columns, fixed_columns, sizeof fixed_columns);
 	for (int i = 0; i < probes->count; ++i) {
 		const JnProbeDef* probe = (const JnProbeDef*)probes->data + i;
-		run->probe_nodes[i] = jn_model_nearest(jn_sim_model(run->sim), probe->at);
 		for (int axis = 0; axis < 3; ++axis) {
 			char name[256];
 			snprintf(name, sizeof name, "probe.%s.%c", probe->name, 'x' + axis);
@@ -50,6 +64,21 @@ static JnStatus name_columns(JnRun* run) {
 		}
 	}
 	run->info.columns = columns;
+	return JN_OK;
+}
+
+// The surface that the cells carry along, or else the outer faces of the cells.
+static JnStatus describe_surface(const JnBody* body, JnArena* arena, JnRecordBody* record) {
+	record->embedding = body->mesh.embedding;
+	if (record->embedding != NULL) {
+		record->triangle_count = record->embedding->surface.triangle_count;
+		record->triangles = record->embedding->surface.triangles;
+		return JN_OK;
+	}
+	int* triangles = NULL;
+	JN_TRY(jn_mesh_boundary(&body->mesh, arena, &record->triangle_count, &triangles));
+	for (int i = 0; i < 3 * record->triangle_count; ++i) triangles[i] += body->first_node;
+	record->triangles = triangles;
 	return JN_OK;
 }
 
@@ -64,6 +93,7 @@ static JnStatus list_bodies(JnRun* run, const JnModel* model) {
 								   .node_count = body->mesh.node_count,
 								   .cell_count = body->mesh.cell_count,
 								   .cells = body->cells};
+		JN_TRY(describe_surface(body, &run->arena, &bodies[b]));
 	}
 	run->info.body_count = model->body_count;
 	run->info.bodies = bodies;
@@ -104,6 +134,7 @@ JnStatus jn_run_describe(JnRun* run) {
 	run->info.blas = blas;
 	JN_TRY(annotate_text(run));
 	JN_TRY(list_bodies(run, model));
+	JN_TRY(find_probes(run, model));
 	return name_columns(run);
 }
 
@@ -128,6 +159,7 @@ void jn_run_measure(JnRun* run) {
 										  at_start ? 0 : report->factorizations,
 										  at_start ? 0 : report->solves,
 										  at_start ? 0 : report->rejected,
+										  at_start ? 0 : report->minimized,
 										  e.momentum[0],
 										  e.momentum[1],
 										  e.momentum[2],
@@ -136,5 +168,5 @@ void jn_run_measure(JnRun* run) {
 										  e.angular[2]};
 	memcpy(run->values, values, sizeof values);
 	for (int i = 0; i < run->scene->def.probes.count; ++i)
-		memcpy(run->values + FIXED_COLUMNS + 3 * i, state->x + 3 * (size_t)run->probe_nodes[i], 3 * sizeof(double));
+		jn_probe_position(&run->probes[i], state->x, run->values + FIXED_COLUMNS + 3 * i);
 }

@@ -42,3 +42,25 @@ with h5py.File(f"{directory}/run.h5") as run:
 			assert np.array_equal(point_data["position"], frame["position"])
 			assert np.array_equal(point_data["velocity"], frame["velocity"])
 			assert [list(block) for block in cell_data["body"]] == [[i] for i in range(len(cells))]
+
+	surfaces = [run["mesh"][name]["surface"] for name in run["mesh"] if name != "nodes"]
+	with meshio.xdmf.TimeSeriesReader(f"{directory}/surface.xdmf") as reader:
+		points, cells = reader.read_points_cells()
+		assert [block.type for block in cells] == ["triangle"], cells
+		assert len(cells[0].data) == sum(len(surface["triangles"]) for surface in surfaces)
+		assert reader.num_steps == summary["frames"]
+		has_embedding = any(surface.attrs["kind"] == "embedded" for surface in surfaces)
+		for k in range(reader.num_steps):
+			time, point_data, cell_data = reader.read_data(k)
+			frame = run[f"frames/{k:08d}"]
+			assert time == frame.attrs["time"]
+			assert np.array_equal(point_data["position"], frame["surface" if has_embedding else "position"])
+			assert len(cell_data["body"][0]) == len(cells[0].data)
+			for surface in surfaces:
+				if surface.attrs["kind"] != "embedded":
+					continue
+				first, count = surface.attrs["first_point"], surface.attrs["point_count"]
+				carried = np.einsum("sk,ska->sa", surface["weights"], frame["position"][()][surface["nodes"][()]])
+				assert np.allclose(point_data["position"][first:first + count], carried, rtol=0, atol=1e-14)
+				own = surface["triangles"][()] + first
+				assert all((cells[0].data == triangle).all(axis=1).any() for triangle in own)

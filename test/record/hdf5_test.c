@@ -156,6 +156,73 @@ static void mixed_topology_leads_each_cell_with_its_number(void** state) {
 	H5Fclose(file);
 }
 
+static void plain_bodies_have_the_faces_of_their_cells_as_surface(void** state) {
+	Sample* sample = *state;
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	const int expected[9] = {0, 3, 1, 0, 2, 3, 8, 10, 9}, expected_bodies[3] = {0, 0, 1};
+	int triangles[9], bodies[3];
+	read_numbers(file, "/mesh/beam/surface/triangles", H5T_NATIVE_INT, 6, triangles);
+	read_numbers(file, "/mesh/wedge: \xC3\xA9/surface/triangles", H5T_NATIVE_INT, 3, triangles + 6);
+	assert_memory_equal(triangles, expected, sizeof expected);
+	read_numbers(file, "/topology/surface", H5T_NATIVE_INT, 9, triangles);
+	assert_memory_equal(triangles, expected, sizeof expected);
+	read_numbers(file, "/topology/surface_body", H5T_NATIVE_INT, 3, bodies);
+	assert_memory_equal(bodies, expected_bodies, sizeof bodies);
+	check_text(file, "/mesh/beam/surface", "kind", "boundary");
+	assert_int_equal(read_count(file, "/mesh/wedge: \xC3\xA9/surface", "first_point"), 8);
+	assert_int_equal(H5Lexists(file, "/frames/00000000/surface", H5P_DEFAULT), 0);
+	H5Fclose(file);
+}
+
+static void embedded_surface_reads_back_with_nodes_of_the_run(void** state) {
+	Sample* sample = *state;
+	sample_embed(sample);
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	const char* const group = "/mesh/wedge: \xC3\xA9/surface";
+	const int expected[9] = {0, 3, 1, 0, 2, 3, 10, 8, 9}; // its vertices come behind the beam's 8 nodes
+	int nodes[12], triangles[9], own[3];
+	double rest[9], weights[12];
+	read_numbers(file, "/mesh/wedge: \xC3\xA9/surface/nodes", H5T_NATIVE_INT, 12, nodes);
+	for (int i = 0; i < 12; i++) assert_int_equal(nodes[i], sample_vertex_nodes[i] + 8);
+	read_numbers(file, "/mesh/wedge: \xC3\xA9/surface/triangles", H5T_NATIVE_INT, 3, own);
+	assert_memory_equal(own, sample_vertex_triangle, sizeof own);
+	read_numbers(file, "/mesh/wedge: \xC3\xA9/surface/rest", H5T_NATIVE_DOUBLE, 9, rest);
+	assert_memory_equal(rest, sample_vertices, sizeof rest);
+	read_numbers(file, "/mesh/wedge: \xC3\xA9/surface/weights", H5T_NATIVE_DOUBLE, 12, weights);
+	assert_memory_equal(weights, sample_vertex_weights, sizeof weights);
+	read_numbers(file, "/topology/surface", H5T_NATIVE_INT, 9, triangles);
+	assert_memory_equal(triangles, expected, sizeof expected);
+	check_text(file, group, "kind", "embedded");
+	assert_int_equal(read_count(file, group, "first_point"), 8);
+	assert_int_equal(read_count(file, group, "point_count"), SAMPLE_VERTICES);
+	H5Fclose(file);
+}
+
+static void embedded_surface_moves_with_its_nodes(void** state) {
+	Sample* sample = *state;
+	sample_embed(sample);
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	for (long i = 0; i < SAMPLE_FRAMES; i++) {
+		double x[3 * SAMPLE_NODES], v[3 * SAMPLE_NODES], points[3 * (8 + SAMPLE_VERTICES)];
+		char name[64];
+		sample_state(i * SAMPLE_STEPS_A_FRAME, sample, x, v);
+		snprintf(name, sizeof name, "/frames/%08ld/surface", i);
+		read_numbers(file, name, H5T_NATIVE_DOUBLE, 3 * (8 + SAMPLE_VERTICES), points);
+		assert_memory_equal(points, x, 24 * sizeof *x);
+		for (int k = 0; k < 3 * SAMPLE_VERTICES; k++) {
+			double expected = 0;
+			for (int j = 0; j < 4; j++)
+				expected +=
+					sample_vertex_weights[k / 3 * 4 + j] * x[3 * (8 + sample_vertex_nodes[k / 3 * 4 + j]) + k % 3];
+			assert_true(fabs(points[24 + k] - expected) <= 1e-15); // the same sum of four numbers below 2
+		}
+	}
+	H5Fclose(file);
+}
+
 static void file_tells_its_origin_and_outcome(void** state) {
 	Sample* sample = *state;
 	sample_record(sample);
@@ -289,7 +356,8 @@ int main(void) {
 		TEST(mesh_reads_back_with_its_bodies),        TEST(mixed_topology_leads_each_cell_with_its_number),
 		TEST(file_tells_its_origin_and_outcome),      TEST(killed_run_leaves_its_frames_readable),
 		TEST(running_file_can_be_read_by_others),     TEST(full_disk_ends_the_run_with_path_and_reason),
-		TEST(run_after_a_full_disk_is_recorded),
+		TEST(run_after_a_full_disk_is_recorded),      TEST(plain_bodies_have_the_faces_of_their_cells_as_surface),
+		TEST(embedded_surface_moves_with_its_nodes),  TEST(embedded_surface_reads_back_with_nodes_of_the_run),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,6 +56,10 @@ static void full_disk_under_xdmf_is_told(void** state) {
 	check_full(*state, "run.xdmf.tmp", "run.xdmf");
 }
 
+static void full_disk_under_surface_xdmf_is_told(void** state) {
+	check_full(*state, "surface.xdmf.tmp", "surface.xdmf");
+}
+
 static void full_disk_under_summary_is_told(void** state) {
 	Sample* sample = *state;
 	check_full(sample, "summary.json.tmp", "summary.json");
@@ -138,6 +142,7 @@ int main(void) {
 		TEST(nan_in_a_column_is_refused_by_name),   TEST(nan_in_a_position_is_refused_by_node),
 		TEST(infinite_velocity_is_refused_by_node), TEST(body_called_nodes_is_refused),
 		TEST(column_with_a_comma_is_refused),       TEST(second_close_does_nothing),
+		TEST(full_disk_under_surface_xdmf_is_told),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,6 +34,22 @@ static const JnColumn sample_columns[SAMPLE_COLUMNS] = {
 
 static const int sample_hexahedron[8] = {0, 1, 3, 2, 4, 5, 7, 6};
 static const int sample_tetrahedron[4] = {8, 9, 10, 11};
+static const int sample_beam_triangles[6] = {0, 3, 1, 0, 2, 3};
+static const int sample_wedge_triangles[3] = {8, 10, 9};
+
+/// A surface of three vertices that the tetrahedron carries along; the last vertex is outside of it.
+enum { SAMPLE_VERTICES = 3 };
+static double sample_vertices[3 * SAMPLE_VERTICES];
+static int sample_vertex_triangle[3] = {2, 0, 1};
+static const int sample_vertex_nodes[4 * SAMPLE_VERTICES] = {0, 1, 2, 3, 1, 3, 0, 2, 0, 1, 2, 3};
+static const double sample_vertex_weights[4 * SAMPLE_VERTICES] = {0.25, 0.25, 0.25, 0.25, 0.5,  0.5,
+																  0,    0,    1.5,  -0.5, -0.1, 0.1};
+static const JnEmbedding sample_embedding = {
+	.surface = {SAMPLE_VERTICES, sample_vertices, 1, sample_vertex_triangle},
+	.cell_nodes = 4,
+	.nodes = sample_vertex_nodes,
+	.weights = sample_vertex_weights,
+};
 
 typedef struct Sample {
 	char directory[64];
@@ -61,8 +77,9 @@ static inline int sample_setup(void** state) {
 		sample.nodes[3 * i + 1] = (i >> 1 & 1) / 3.0;
 		sample.nodes[3 * i + 2] = (i >> 2) * 1e-3;
 	}
-	sample.bodies[0] = (JnRecordBody){"beam", JN_HEX8, 0, 8, 1, sample_hexahedron};
-	sample.bodies[1] = (JnRecordBody){"wedge: \xC3\xA9", JN_TET4, 8, 4, 1, sample_tetrahedron};
+	sample.bodies[0] = (JnRecordBody){"beam", JN_HEX8, 0, 8, 1, sample_hexahedron, 2, sample_beam_triangles, NULL};
+	sample.bodies[1] =
+		(JnRecordBody){"wedge: \xC3\xA9", JN_TET4, 8, 4, 1, sample_tetrahedron, 1, sample_wedge_triangles, NULL};
 	sample.info = (JnRecordInfo){
 		.directory = sample.directory,
 		.scene_name = "it's a \"beam\"",
@@ -84,6 +101,15 @@ static inline int sample_setup(void** state) {
 	jn_log_set_sink(sample_keep_message, &sample);
 	*state = &sample;
 	return 0;
+}
+
+/// Let the second body carry the surface of three vertices.
+static inline void sample_embed(Sample* sample) {
+	jn_embedding_positions(&sample_embedding, sample->nodes + 3 * (ptrdiff_t)sample->bodies[1].first_node,
+						   sample_vertices);
+	sample->bodies[1].triangle_count = sample_embedding.surface.triangle_count;
+	sample->bodies[1].triangles = sample_embedding.surface.triangles;
+	sample->bodies[1].embedding = &sample_embedding;
 }
 
 static inline int sample_remove(const char* path, const struct stat* facts, int kind, struct FTW* walk) {

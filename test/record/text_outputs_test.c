@@ -85,14 +85,41 @@ static void xdmf_has_a_grid_a_frame(void** state) {
 	free(xml);
 }
 
+static void xdmf_of_plain_surfaces_uses_the_nodes(void** state) {
+	Sample* sample = *state;
+	sample_record(sample);
+	char* xml = sample_read(sample, "surface.xdmf");
+	assert_int_equal(count_parts(xml, "GridType=\"Uniform\""), SAMPLE_FRAMES);
+	assert_int_equal(count_parts(xml, "<Topology TopologyType=\"Triangle\" NumberOfElements=\"3\">"), SAMPLE_FRAMES);
+	assert_int_equal(count_parts(xml, "run.h5:/frames/00000004/position"), 2);
+	check_contains(xml, "<Time Value=\"0.66666666666666663\"/>");
+	check_contains(xml, "</Grid>\n\t</Domain>\n</Xdmf>\n");
+	free(xml);
+}
+
+static void xdmf_of_an_embedded_surface_has_its_own_points(void** state) {
+	Sample* sample = *state;
+	sample_embed(sample);
+	sample_record(sample);
+	char* xml = sample_read(sample, "surface.xdmf");
+	assert_int_equal(count_parts(xml, "run.h5:/frames/00000004/surface"), 2);
+	assert_int_equal(count_parts(xml, "Dimensions=\"11 3\""), 2 * SAMPLE_FRAMES); // 8 nodes, 3 vertices
+	free(xml);
+}
+
+static void check_complete(const Sample* sample, const char* name) {
+	char* xml = sample_read(sample, name);
+	assert_int_equal(count_parts(xml, "GridType=\"Uniform\""), 1);
+	check_contains(xml, "</Xdmf>\n");
+	free(xml);
+}
+
 static void xdmf_is_complete_during_the_run(void** state) {
 	Sample* sample = *state;
 	assert_int_equal(sample_open(sample), JN_OK);
 	assert_int_equal(sample_write(sample, 0), JN_OK);
-	char* xml = sample_read(sample, "run.xdmf");
-	assert_int_equal(count_parts(xml, "GridType=\"Uniform\""), 1);
-	check_contains(xml, "</Xdmf>\n");
-	free(xml);
+	check_complete(sample, "run.xdmf");
+	check_complete(sample, "surface.xdmf");
 	assert_int_equal(sample_close(sample), JN_OK);
 }
 
@@ -196,6 +223,11 @@ static void python_opens_a_run_of_two_shapes(void** state) {
 	check_by_python(*state, "hexahedron tetra");
 }
 
+static void python_opens_a_run_with_an_embedded_surface(void** state) {
+	sample_embed(*state);
+	check_by_python(*state, "hexahedron tetra");
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, sample_setup, sample_teardown)
 
 int main(void) {
@@ -213,6 +245,9 @@ int main(void) {
 		TEST(missing_gnuplot_is_one_warning),
 		TEST(python_opens_a_run_of_one_body),
 		TEST(python_opens_a_run_of_two_shapes),
+		TEST(python_opens_a_run_with_an_embedded_surface),
+		TEST(xdmf_of_plain_surfaces_uses_the_nodes),
+		TEST(xdmf_of_an_embedded_surface_has_its_own_points),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
