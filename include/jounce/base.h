@@ -68,6 +68,7 @@ typedef struct JnReport {
 	int solves;         ///< solves with a factor
 	int indefinite;     ///< Newton matrices that were indefinite and were replaced by the definite form
 	int backtracks;     ///< halvings in the line search
+	int minimized;      ///< stages that newton.mode auto handed over from root to minimize
 	int rejected;       ///< attempts thrown away before this one
 	double error;    ///< embedded estimate of the step's error in position, largest entry [m]; 0: the method has none
 	double residual; ///< residual norm at the end of the last stage, relative to the force scale

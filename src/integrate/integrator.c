@@ -90,7 +90,7 @@ JnStatus jn_state_check(JnSpace* space, const JnState* s) {
 	return is_finite ? JN_OK : JN_NOT_FINITE;
 }
 
-static const char* const modes[] = {"root", "linear", NULL};
+static const char* const modes[] = {"root", "linear", "minimize", "auto", NULL};
 static const char* const reuses[] = {"auto", "never", NULL};
 static const char* const guesses[] = {"zero", "last", "linear", NULL};
 
@@ -99,7 +99,9 @@ const JnKey jn_newton_keys[] = {
 	 .kind = JN_CHOICE,
 	 .field = offsetof(JnNewtonDef, mode),
 	 .names = modes,
-	 .meaning = "root: Newton on the residual with a line search; linear: one Newton step from zero acceleration"},
+	 .value = {3},
+	 .meaning = "root: Newton on the residual with a line search; linear: one Newton step from zero acceleration; minimize: "
+				"Newton on the energy of the step, for hard states; auto: root, and minimize where that stalls"},
 	{.name = "tolerance",
 	 .kind = JN_REAL,
 	 .field = offsetof(JnNewtonDef, tolerance),
@@ -111,11 +113,11 @@ const JnKey jn_newton_keys[] = {
 	{.name = "max_iterations",
 	 .kind = JN_INTEGER,
 	 .field = offsetof(JnNewtonDef, max_iterations),
-	 .value = {60},
+	 .value = {200},
 	 .low = 1,
 	 .high = 10000,
-	 .meaning =
-		 "iterations a stage; as many once more, from zero with a tangent each, before the step counts as failed"},
+	 .meaning = "iterations a stage; as many once more before the step counts as failed: by minimize in mode auto, from "
+				"zero with a tangent each in mode root"},
 	{.name = "reuse",
 	 .kind = JN_CHOICE,
 	 .field = offsetof(JnNewtonDef, reuse),

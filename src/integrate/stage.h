@@ -6,12 +6,14 @@
 /// Number of secant steps that the quasi-Newton update remembers.
 enum { JN_STAGE_SECANTS = 12 };
 
-/// Vectors that jn_stage_solve needs: residual, M a, step, last a that served, the two latest solutions, secant steps.
+/// Vectors that jn_stage_solve needs: residual, M a, step, last a that served, D step, the two latest solutions, secant
+/// steps.
 enum {
 	JN_STAGE_RESIDUAL,
 	JN_STAGE_MASS,
 	JN_STAGE_STEP,
 	JN_STAGE_ORIGIN,
+	JN_STAGE_DAMPING,
 	JN_STAGE_RECENT,
 	JN_STAGE_SECANT = JN_STAGE_RECENT + 2,
 	JN_STAGE_VECTORS = JN_STAGE_SECANT + JN_STAGE_SECANTS

@@ -128,6 +128,7 @@ static void add_report(JnReport* sum, const JnReport* one) {
 	sum->solves += one->solves;
 	sum->indefinite += one->indefinite;
 	sum->backtracks += one->backtracks;
+	sum->minimized += one->minimized;
 	sum->residual = one->residual;
 }
 
