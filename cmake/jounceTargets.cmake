@@ -1,8 +1,8 @@
-# libjounce and the command. Wide loops, src/force/solid_*.c and src/solve/wide_*.c, are compiled once for each vector width into the
+# libjounce and the command. Wide loops, src/force/solid_*.c and src/*/wide_*.c, are compiled once for each vector width into the
 # same library, and the widest that the machine can run is chosen at run time.
 file(GLOB JN_SOURCES CONFIGURE_DEPENDS src/*/*.c src/*/*/*.c)
-file(GLOB JN_KERNEL_SOURCES CONFIGURE_DEPENDS src/force/solid_*.c src/solve/wide_*.c)
-list(FILTER JN_SOURCES EXCLUDE REGEX "/src/force/solid_[^/]*\\.c$|/src/solve/wide_[^/]*\\.c$|/src/backend/")
+file(GLOB JN_KERNEL_SOURCES CONFIGURE_DEPENDS src/force/solid_*.c src/*/wide_*.c)
+list(FILTER JN_SOURCES EXCLUDE REGEX "/src/force/solid_[^/]*\\.c$|/src/[^/]*/wide_[^/]*\\.c$|/src/backend/")
 if(NOT JN_SOURCES)
 	message(FATAL_ERROR "no sources under ${CMAKE_CURRENT_SOURCE_DIR}/src")
 endif()

@@ -46,4 +46,9 @@ typedef struct JnDirectDef {
 
 extern const JnSolverType jn_solver_direct;
 
+/// Sparse LU (UMFPACK), for matrices that are not symmetric. Its factor() takes the blocks of all rows, those of
+/// pattern->full_column: blocks[9 * k + 3 * r + c] for place k of the full rows. JN_INDEFINITE stands for a singular matrix.
+/// No options; no scene names it, as models choose it where they must.
+extern const JnSolverType jn_solver_unsymmetric;
+
 #endif
