@@ -21,13 +21,32 @@ typedef struct JnRegionSphereDef {
 	double radius;    ///< [m]
 } JnRegionSphereDef;
 
-/// Which nodes of a body, by their rest positions. Exactly one of the fields is given.
+/// A plane, for selecting nodes.
+typedef struct JnRegionPlaneDef {
+	double point[3];  ///< any point of it [m]
+	double normal[3]; ///< of any length > 0
+	double within;    ///< distance that counts as on it [m]; NAN: 1e-6 of the body's size
+	int side;         ///< 0 on it; 1 on it or above, where the normal points; 2 on it or below
+} JnRegionPlaneDef;
+
+/// Which nodes of a body, by their rest positions or by name. Exactly one of the fields is given.
 typedef struct JnSelectDef {
 	int face;                  ///< 0 none; 1 .. 6: side x- x+ y- y+ z- z+ of the body's bounding box; 7: all nodes
 	JnRegionBoxDef* box;       ///< nodes inside or on it
 	JnRegionSphereDef* sphere; ///< nodes inside or on it
 	double nearest[3];         ///< the one node nearest to a point [m]; NAN when not given
+	JnRegionPlaneDef* plane;   ///< nodes on it or to one side
+	int corner;      ///< 0 none; 1 + bits: the node nearest to a corner of the bounding box, bit i: high along axis i
+	const char* set; ///< a named set, of the mesh or of the body's `sets`; NULL: none
 } JnSelectDef;
+
+extern const JnKey jn_select_keys[]; ///< of JnSelectDef
+
+/// A name for nodes of a body.
+typedef struct JnSetDef {
+	const char* name;
+	JnSelectDef where; ///< may name sets of the mesh, and those before it in the list
+} JnSetDef;
 
 /// Nodes held at their rest position.
 typedef struct JnFixDef {
@@ -47,7 +66,31 @@ typedef struct JnDampingDef {
 	double alpha;  ///< [1/s]
 	double beta;   ///< [s]
 	int stiffness; ///< K taken at: 0 the start of the step, 1 rest, 2 the current state
+	double start;  ///< steps that begin before this time have D = 0 [s]
 } JnDampingDef;
+
+/// A random displacement of every free node at the start, uniform in a ball; held axes stay.
+typedef struct JnScatterDef {
+	double amplitude; ///< radius of the ball [m]; 0: none
+	int seed;         ///< the same seed gives the same displacements, on any machine
+} JnScatterDef;
+
+/// Gusts: the seeded sum of sine waves of model/wind_gust.h.
+typedef struct JnGustDef {
+	double strength;   ///< root mean square of their speed [m/s]
+	double period;     ///< about which their periods lie, from half of it to twice [s]
+	double wavelength; ///< of a gust of that period [m]; NAN: the same everywhere
+	int seed;
+	int components; ///< waves, 1 .. 64
+} JnGustDef;
+
+/// Air that moves past the bodies, and loads their surfaces.
+typedef struct JnWindDef {
+	double velocity[3]; ///< its constant part [m/s]
+	double density;     ///< of the air [kg/m^3]
+	JnGustDef* gusts;   ///< NULL: none
+	int tangent;        ///< derivatives of the wind's force in K and D: 0 none, 1 exact
+} JnWindDef;
 
 typedef struct JnBodyDef {
 	const char* name;
@@ -55,20 +98,27 @@ typedef struct JnBodyDef {
 	JnVariant material; ///< row of jn_law_list
 	int mass;           ///< 0 consistent, 1 lumped
 	JnDampingDef damping;
+	double drag;        ///< drag coefficient C_d of each triangle of the surface; 0: no wind on this body
 	double velocity[3]; ///< of all free nodes at the start [m/s]
 	double spin[3];     ///< angular velocity at the start, about the centre of mass at rest; added to velocity [rad/s]
-	JnItems fix;        ///< JnFixDef
-	JnItems drive;      ///< JnDriveDef
+	JnScatterDef scatter;
+	JnItems sets;  ///< JnSetDef
+	JnItems fix;   ///< JnFixDef
+	JnItems drive; ///< JnDriveDef
 } JnBodyDef;
 
 typedef struct JnModelDef {
 	double gravity[3]; ///< [m/s^2]
 	JnItems bodies;    ///< JnBodyDef
+	JnWindDef* wind;   ///< NULL: no air at all
 	JnVariant solver;  ///< row of the solver list
 } JnModelDef;
 
 /// The rows of JnModelDef in a scene file.
 extern const JnKey jn_body_keys[];
+
+/// The rows of JnWindDef in a scene file.
+extern const JnKey jn_wind_keys[];
 
 typedef struct JnModel JnModel;
 
@@ -93,7 +143,8 @@ typedef struct JnEnergies {
 /// The model as a system M a = f(t, x, v); owned by the model.
 JnSystem* jn_model_system(JnModel* model);
 
-/// Put a state of the model's space at rest positions with the bodies' initial velocities, at time t.
+/// Put a state of the model's space at rest positions, scattered where the bodies say so, with the bodies' initial
+/// velocities, at time t.
 void jn_model_start(JnModel* model, double t, JnState* state);
 
 JnEnergies jn_model_energies(JnModel* model, const JnState* state);

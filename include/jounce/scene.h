@@ -9,10 +9,13 @@
 extern "C" {
 #endif
 
-/// A point whose motion goes into the series: the node nearest to it at rest.
+/// A point whose motion goes into the series: the node nearest to it at rest, or the mean position of chosen nodes.
+/// Exactly one of `at` and `where` is given.
 typedef struct JnProbeDef {
 	const char* name;
-	double at[3]; ///< rest position [m]
+	double at[3];       ///< rest position [m]; NAN when not given
+	JnSelectDef* where; ///< nodes of a body; NULL when not given
+	const char* body;   ///< name of the body whose nodes are meant; NULL: all for `at`, the only one for `where`
 } JnProbeDef;
 
 typedef struct JnRecordDef {

@@ -7,10 +7,12 @@
 #include <string.h>
 
 #include "base/log.h"
+#include "base/random.h"
 #include "mesh/shape.h"
 #include "model/mass.h"
 #include "model/select.h"
 #include "model/system.h"
+#include "model/wind.h"
 
 // What the axes of a node do while constraints are collected: 0 free, 1 held at rest, 2 + i driven by motions[i].
 typedef struct Axes {
@@ -23,14 +25,18 @@ static JnStatus mesh_body(const JnBodyDef* def, int index, JnModel* model) {
 	JnBody* body = &model->bodies[index];
 	*body =
 		(JnBody){.name = def->name, .damping = def->damping, .mass_form = def->mass, .first_node = model->node_count};
+	body->drag = def->drag;
 	memcpy(body->velocity, def->velocity, sizeof body->velocity);
 	memcpy(body->spin, def->spin, sizeof body->spin);
+	body->scatter = def->scatter;
 	const JnShapeType* shape = (const JnShapeType*)def->shape.row;
 	char what[96];
 	snprintf(what, sizeof what, "bodies[%d].shape", index);
 	JN_TRY(shape->generate(def->shape.options, what, &model->arena, &body->mesh));
 	if (body->mesh.cell_count == 0 || body->mesh.node_count == 0)
 		return jn_error(JN_BAD_INPUT, "%s: the mesh of '%s' has no cells; give it some", what, def->name);
+	snprintf(what, sizeof what, "bodies[%d].sets", index);
+	JN_TRY(jn_select_add_sets(&def->sets, what, &model->arena, &body->mesh));
 	const size_t entries = (size_t)body->mesh.cell_count * (size_t)jn_shape_info[body->mesh.shape].nodes;
 	JN_NEW(&model->arena, body->cells, entries);
 	for (size_t k = 0; k < entries; ++k) body->cells[k] = body->mesh.cells[k] + body->first_node;
@@ -187,6 +193,7 @@ static JnStatus build(const JnModelDef* def, JnModel* model, JnArena* scratch) {
 	JN_TRY(build_elements(&def->bodies, model));
 	JN_TRY(build_pattern(model, scratch));
 	JN_TRY(jn_mass_build(model));
+	if (def->wind != NULL) JN_TRY(jn_wind_create(def->wind, model, &model->wind));
 	return jn_model_system_create(model, &def->solver);
 }
 
@@ -259,8 +266,25 @@ static void start_body(const JnModel* model, const JnBody* body, JnState* state)
 	}
 }
 
+// Every node draws, also a held one, so that what is held changes no other node.
+static void scatter_body(const JnModel* model, const JnBody* body, JnState* state) {
+	JnRandom random = {(uint64_t)body->scatter.seed};
+	if (body->scatter.amplitude == 0) return;
+	for (int node = body->first_node; node < body->first_node + body->mesh.node_count; ++node) {
+		double point[3];
+		jn_random_in_ball(&random, point);
+		for (int axis = 0; axis < 3; ++axis) {
+			const size_t k = 3 * (size_t)node + (size_t)axis;
+			if (!model->held[k]) state->x[k] += body->scatter.amplitude * point[axis];
+		}
+	}
+}
+
 void jn_model_start(JnModel* model, double t, JnState* state) {
-	for (int b = 0; b < model->body_count; ++b) start_body(model, &model->bodies[b], state);
+	for (int b = 0; b < model->body_count; ++b) {
+		start_body(model, &model->bodies[b], state);
+		scatter_body(model, &model->bodies[b], state);
+	}
 	state->t = t;
 	model->system->ops->prescribe(model->system, state, NULL);
 	jn_state_touch(model->system->space, state);

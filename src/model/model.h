@@ -9,16 +9,20 @@
 #include "model/motion.h"
 #include "solve/solver.h"
 
+typedef struct JnWind JnWind;
+
 typedef struct JnBody {
 	const char* name;
-	JnMesh mesh;    ///< cells with node numbers of their own, from 0
+	JnMesh mesh;    ///< cells with node numbers of their own, from 0; with the sets of the body
 	int first_node; ///< number of the body's node 0 in the model
 	int* cells;     ///< the same cells with the model's node numbers
 	JnGroup group;
 	JnDampingDef damping;
 	int mass_form;      ///< 0 consistent, 1 lumped
+	double drag;        ///< C_d
 	double velocity[3]; ///< at the start [m/s]
 	double spin[3];     ///< at the start [rad/s]
+	JnScatterDef scatter;
 } JnBody;
 
 /// One coordinate that does not follow the equations of motion.
@@ -45,6 +49,7 @@ struct JnModel {
 	double* alpha_mass; ///< sum of alpha M over bodies, one number a block [kg/s]; NULL when no body has alpha
 	bool has_beta;      ///< some body has stiffness damping
 	double total_mass;  ///< [kg]
+	JnWind* wind;       ///< wind.h; NULL: none
 	JnSystem* system;
 };
 

@@ -7,12 +7,14 @@
 
 #include "base/log.h"
 #include "base/space.h"
+#include "model/wind.h"
 
 static JnModelSystem* of(JnSystem* sys) {
 	return (JnModelSystem*)sys;
 }
 
 static void make_damping(JnModelSystem* sys, const double* x, uint64_t stamp) {
+	if (sys->damping == NULL) return;
 	jn_assembly_tangent(sys->assembly, x, JN_DEFINITE, sys->beta, sys->damping);
 	sys->damping_stamp = stamp;
 	++sys->base.report->tangents;
@@ -27,17 +29,31 @@ static void update_internal(JnModelSystem* sys, const JnState* s) {
 	++sys->base.report->forces;
 }
 
-// Typical forces: the weight, or what acts inside, or (at rest without weight) those of a strain of 1e-6.
+// Typical forces: the weight, or what acts inside, or the wind, or (at rest without weight) those of a strain of 1e-6.
 static double typical_force(JnModelSystem* sys) {
 	JnSpace* space = sys->base.space;
 	const double weight = sqrt(space->ops->dot(space, sys->external, sys->external));
 	const double inside = sqrt(space->ops->dot(space, sys->internal, sys->internal));
-	return fmax(fmax(weight, inside), 1e-6 / DBL_EPSILON * sys->base.force_floor);
+	const double outside = sys->model->wind != NULL ? sys->model->wind->typical_force : 0;
+	return fmax(fmax(fmax(weight, inside), outside), 1e-6 / DBL_EPSILON * sys->base.force_floor);
+}
+
+// Times are sums of steps: one that ought to begin at damping_start may begin a few roundings before it.
+static void switch_damping(JnModelSystem* sys, double t) {
+	const bool acts = t >= sys->damping_start * (1 - 1e-9);
+	double* const damping = acts ? sys->damping_store : NULL;
+	double* const alpha_mass = acts ? sys->model->alpha_mass : NULL;
+	if (damping == sys->damping && alpha_mass == sys->alpha_mass) return;
+	sys->damping = damping;
+	sys->alpha_mass = alpha_mass;
+	sys->damping_stamp = 0;
+	jn_model_matrix_expire(sys);
 }
 
 static JnStatus begin(JnSystem* base, const JnState* start) {
 	JnModelSystem* sys = of(base);
-	if (sys->damping_at_rest && sys->damping_stamp == 0) {
+	switch_damping(sys, start->t);
+	if (sys->damping_at_rest && sys->damping != NULL && sys->damping_stamp == 0) {
 		jn_assembly_freeze(sys->assembly, sys->model->rest);
 		make_damping(sys, sys->model->rest, start->stamp);
 	}
@@ -76,7 +92,8 @@ static JnStatus force(JnSystem* base, const JnState* s, JnVec f) {
 	const JnModel* model = sys->model;
 	update_internal(sys, s);
 	base->space->ops->combine(base->space, f, 2, (JnTerm[]){{1, sys->internal}, {1, sys->external}});
-	if (model->alpha_mass != NULL) jn_scalars_apply(&model->pattern, model->alpha_mass, -1, s->v, f, model->threads);
+	if (model->wind != NULL) jn_wind_force(model->wind, s, f);
+	if (sys->alpha_mass != NULL) jn_scalars_apply(&model->pattern, sys->alpha_mass, -1, s->v, f, model->threads);
 	if (sys->damping_is_current && sys->damping_stamp != s->stamp) make_damping(sys, s->x, s->stamp);
 	if (sys->damping != NULL) jn_blocks_apply(&model->pattern, sys->damping, -1, s->v, f, model->threads);
 	return JN_OK;
@@ -103,6 +120,7 @@ static double energy(JnSystem* base, const JnState* s) {
 static JnStatus linearize(JnSystem* base, const JnState* s) {
 	JnModelSystem* sys = of(base);
 	if (sys->damping_is_current && sys->damping_stamp != s->stamp) make_damping(sys, s->x, s->stamp);
+	if (sys->unsymmetric != NULL && jn_wind_linearize(sys->model->wind, s)) jn_model_matrix_expire(sys);
 	const bool is_constant = base->is_linear_in_step && sys->stiffness_stamp != 0;
 	if (sys->stiffness_stamp == s->stamp || is_constant) return JN_OK;
 	jn_assembly_tangent(sys->assembly, s->x, JN_EXACT, NULL, sys->stiffness);
@@ -157,10 +175,12 @@ static JnStatus allocate(JnModelSystem* sys) {
 	JN_NEW(arena, sys->momenta, n);
 	JN_NEW(arena, sys->stiffness, entries);
 	JN_NEW(arena, sys->scratch, entries);
-	if (model->has_beta) JN_NEW(arena, sys->damping, entries);
+	if (model->has_beta) JN_NEW(arena, sys->damping_store, entries);
 	JN_NEW(arena, sys->beta, model->body_count);
 	for (int k = 0; k < 3 * model->node_count; ++k) sys->external[k] = model->nodal_mass[k / 3] * model->gravity[k % 3];
-	sys->base.is_linear_in_step = true;
+	sys->base.is_linear_in_step = model->wind == NULL;
+	sys->base.depends_on_time = model->wind != NULL && jn_gusts_blow(&model->wind->gusts);
+	sys->base.has_potential = model->wind == NULL;
 	sys->base.mass_is_diagonal = model->mass_is_diagonal;
 	for (int i = 0; i < model->held_count; ++i) sys->base.depends_on_time |= model->held_list[i].motion != NULL;
 	for (int b = 0; b < model->body_count; ++b) {
@@ -169,7 +189,16 @@ static JnStatus allocate(JnModelSystem* sys) {
 		sys->base.is_linear_in_step &= body->group.kernel->law->is_linear_in_step;
 		sys->damping_is_current |= body->damping.beta > 0 && body->damping.stiffness == 2;
 	}
+	sys->base.has_potential &= !sys->damping_is_current;
 	return JN_OK;
+}
+
+// The derivatives of the wind's force are not symmetric.
+static JnStatus create_unsymmetric(JnModelSystem* sys) {
+	JnModel* model = sys->model;
+	if (model->wind == NULL || model->wind->tangent == NULL) return JN_OK;
+	JN_NEW(&model->arena, sys->full, 9 * (size_t)model->pattern.full_start[model->node_count]);
+	return jn_solver_unsymmetric.create(NULL, &model->pattern, model->held, &sys->unsymmetric);
 }
 
 // One damping matrix serves all bodies, so that they must agree on where K is taken.
@@ -187,6 +216,22 @@ static JnStatus check_damping(JnModelSystem* sys) {
 	return JN_OK;
 }
 
+// Nor do the sums of all bodies tell when each of them begins.
+static JnStatus check_damping_start(JnModelSystem* sys) {
+	bool is_chosen = false;
+	for (int b = 0; b < sys->model->body_count; ++b) {
+		const JnDampingDef* damping = &sys->model->bodies[b].damping;
+		if (damping->alpha == 0 && damping->beta == 0) continue;
+		if (is_chosen && sys->damping_start != damping->start)
+			return jn_error(JN_BAD_INPUT,
+							"bodies[%d].damping.start: differs from that of an earlier body; use one for all", b);
+		sys->damping_start = damping->start;
+		is_chosen = true;
+	}
+	switch_damping(sys, 0);
+	return JN_OK;
+}
+
 JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver) {
 	JnModelSystem* sys;
 	JN_NEW(&model->arena, sys, 1);
@@ -198,8 +243,10 @@ JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver) {
 	JN_TRY(jn_assembly_create(model, &sys->assembly));
 	JN_TRY(allocate(sys));
 	JN_TRY(check_damping(sys));
+	JN_TRY(check_damping_start(sys));
 	const JnSolverType* type = (const JnSolverType*)solver->row;
 	JN_TRY(type->create(solver->options, &model->pattern, model->held, &sys->solver));
+	JN_TRY(create_unsymmetric(sys));
 	jn_assembly_freeze(sys->assembly, model->rest);
 	jn_assembly_tangent(sys->assembly, model->rest, JN_EXACT, NULL, sys->stiffness);
 	sys->base.force_floor = rounding_force(sys);
@@ -210,6 +257,7 @@ void jn_model_system_destroy(JnModel* model) {
 	JnModelSystem* sys = of(model->system);
 	if (sys == NULL) return;
 	if (sys->solver != NULL) sys->solver->type->destroy(sys->solver);
+	if (sys->unsymmetric != NULL) sys->unsymmetric->type->destroy(sys->unsymmetric);
 	jn_host_space_destroy(sys->base.space);
 	model->system = NULL;
 }

@@ -21,6 +21,8 @@ struct JnModelSystem {
 	JnModel* model;
 	JnAssembly* assembly;
 	JnSolver* solver;
+	JnSolver* unsymmetric; ///< for matrices with the wind's derivatives; NULL: those are ignored, or there is no wind
+	double* full;          ///< 9 a place of the pattern's full rows, for that solver
 
 	double* external; ///< gravity [N], 3 * nodes
 	double* internal; ///< internal forces at the state of internal_stamp [N]
@@ -28,7 +30,10 @@ struct JnModelSystem {
 	double* stiffness; ///< K at the state of stiffness_stamp, 9 a block; exact
 	uint64_t stiffness_stamp;
 	double* linear_x;        ///< positions at which K was made
-	double* damping;         ///< beta part of D, 9 a block; NULL when no body has beta
+	double* damping;         ///< beta part of D, 9 a block; NULL when no body has beta, and before damping_start
+	double* damping_store;   ///< what `damping` points to once it acts; NULL when no body has beta
+	double* alpha_mass;      ///< the model's; NULL before damping_start
+	double damping_start;    ///< steps that begin earlier have D = 0 [s]
 	uint64_t damping_stamp;  ///< state at which D was made; 0: not yet
 	double* beta;            ///< one a body [s]
 	bool damping_at_rest;    ///< D is made once, at the rest positions

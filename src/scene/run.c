@@ -19,6 +19,7 @@ static void count_step(JnRun* run) {
 	run->end.tangents += report->tangents;
 	run->end.indefinite += report->indefinite;
 	run->end.rejected += report->rejected;
+	run->end.minimized += report->minimized;
 }
 
 static JnStatus write_record(JnRun* run, const double* values, bool is_frame) {

@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "record/recorder.h"
+#include "scene/probe.h"
 #include "scene/scene.h"
 
 typedef struct JnRun {
@@ -15,7 +16,7 @@ typedef struct JnRun {
 	JnRecordInfo info;
 	JnRecorders recorders;
 	JnRecordEnd end;
-	int* probe_nodes;
+	JnProbe* probes;
 	double* values; ///< one a column
 	double total_at_start;
 	double began;      ///< clock when stepping began [s]

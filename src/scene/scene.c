@@ -9,24 +9,10 @@
 #include "base/key.h"
 #include "base/log.h"
 #include "scene/place.h"
+#include "scene/probe.h"
 #include "scene/scene.h"
 #include "sim/sim_keys.h"
 #include "solve/solver.h"
-
-static const JnKey probe_keys[] = {
-	{.name = "name",
-	 .kind = JN_TEXT,
-	 .field = offsetof(JnProbeDef, name),
-	 .required = true,
-	 .meaning = "names the columns probe.<name>.x, .y, .z"},
-	{.name = "at",
-	 .kind = JN_REAL3,
-	 .field = offsetof(JnProbeDef, at),
-	 .required = true,
-	 .unit = "m",
-	 .meaning = "rest position; the nearest node is followed"},
-	{0},
-};
 
 static const JnKey record_keys[] = {
 	{.name = "interval",
@@ -64,6 +50,12 @@ const JnKey jn_scene_keys[] = {
 	 .keys = jn_body_keys,
 	 .size = sizeof(JnBodyDef),
 	 .meaning = "the deformable bodies"},
+	{.name = "wind",
+	 .kind = JN_OPTIONAL,
+	 .field = offsetof(JnSceneDef, sim.model.wind),
+	 .keys = jn_wind_keys,
+	 .size = sizeof(JnWindDef),
+	 .meaning = "air that moves past the bodies and loads their surfaces; without it there is no air"},
 	JN_SIM_KEY_ROWS(JnSceneDef, sim.),
 	{.name = "solver",
 	 .kind = JN_VARIANT,
@@ -75,7 +67,7 @@ const JnKey jn_scene_keys[] = {
 	{.name = "probes",
 	 .kind = JN_LIST,
 	 .field = offsetof(JnSceneDef, probes),
-	 .keys = probe_keys,
+	 .keys = jn_probe_keys,
 	 .size = sizeof(JnProbeDef),
 	 .meaning = "points whose positions go into the series"},
 	{.name = "record",
@@ -157,7 +149,8 @@ static JnStatus load(JnScene* scene, const char* path, int set_count, const char
 	if (scene->def.name == NULL) return JN_OUT_OF_MEMORY;
 	JnPlacing placing;
 	jn_placing_begin(&placing, &scene->document);
-	const JnStatus status = check_names(&scene->def);
+	JnStatus status = check_names(&scene->def);
+	if (status == JN_OK) status = jn_probes_check(&scene->def);
 	jn_placing_end(&placing);
 	return status;
 }

@@ -1,6 +1,6 @@
 /// @file scene_sweep_test.c
 /// Every integrator on every scene of scenes/, for three steps: it steps to the end with finite states, or it is
-/// refused before the first step with a message that names it and says what to set. Boxes are meshed coarsely for
+/// refused before the first step with a message that names it and says what to set. Shapes are meshed coarsely for
 /// speed.
 #include <glob.h>
 #include <math.h>
@@ -52,10 +52,9 @@ static double first_step(const JnVariant* step) {
 }
 
 // Halve the longest edge of cells until few are left.
-static void coarsen(const JnBodyDef* body, int index, Sets* sets) {
-	if (strcmp(body->shape.row->name, "box") != 0) return;
+static void coarsen_box(const JnBoxDef* box, int index, Sets* sets) {
 	int cells[3];
-	memcpy(cells, ((const JnBoxDef*)body->shape.options)->cells, sizeof cells);
+	memcpy(cells, box->cells, sizeof cells);
 	while (cells[0] * cells[1] * cells[2] > MOST_CELLS) {
 		int longest = 0;
 		for (int axis = 1; axis < 3; ++axis)
@@ -63,6 +62,18 @@ static void coarsen(const JnBodyDef* body, int index, Sets* sets) {
 		cells[longest] /= 2;
 	}
 	add_set(sets, "bodies[%d].shape.cells=[%d, %d, %d]", index, cells[0], cells[1], cells[2]);
+}
+
+// Of the other generated shapes, the coarsest meshes that show what they are.
+static void coarsen(const JnBodyDef* body, int index, Sets* sets) {
+	static const char* const coarse[][2] = {
+		{"sheet", "cells=[6, 6]"},    {"ball", "cells=2"},          {"cylinder", "cells=[8, 1, 4]"},
+		{"torus", "cells=[8, 1, 8]"}, {"rope", "cells=[4, 1, 10]"}, {"jello", "cells=[32, 1, 2]"},
+	};
+	const char* shape = body->shape.row->name;
+	if (strcmp(shape, "box") == 0) coarsen_box(body->shape.options, index, sets);
+	for (size_t i = 0; i < sizeof coarse / sizeof *coarse; ++i)
+		if (strcmp(shape, coarse[i][0]) == 0) add_set(sets, "bodies[%d].shape.%s", index, coarse[i][1]);
 }
 
 static void make_plan(const char* path, Plan* plan) {
