@@ -11,4 +11,7 @@
 /// fails or is not there, or when the size asks for too many cells.
 JnStatus jn_tetrahedra_fill(const JnSurface* surface, double size, const char* what, JnArena* arena, JnMesh* mesh);
 
+/// The same with the surface's own triangles as outer faces: its nodes keep their numbers, inner ones follow.
+JnStatus jn_tetrahedra_inside(const JnSurface* surface, double size, const char* what, JnArena* arena, JnMesh* mesh);
+
 #endif

@@ -72,16 +72,21 @@ static int longest_axis(const int* order, int first, int end, const double* cent
 }
 
 /// Share order[first] .. order[end - 1] out to `leaves` leaves: the nearer half along the longest axis to the first half.
-static void divide(JnTriangleTree* tree, int first, int end, int leaves, const double* centres) {
+static void divide(int* order, int first, int end, int leaves, const double* centres) {
 	const int middle = first + leaves / 2 * JN_TREE_LEAF;
 	if (leaves == 1) return;
 	if (middle >= end) {
-		divide(tree, first, end, leaves / 2, centres);
+		divide(order, first, end, leaves / 2, centres);
 		return;
 	}
-	select_middle(tree->order, first, middle, end, centres, longest_axis(tree->order, first, end, centres));
-	divide(tree, first, middle, leaves / 2, centres);
-	divide(tree, middle, end, leaves / 2, centres);
+	select_middle(order, first, middle, end, centres, longest_axis(order, first, end, centres));
+	divide(order, first, middle, leaves / 2, centres);
+	divide(order, middle, end, leaves / 2, centres);
+}
+
+void jn_tree_sort(int count, const double* centres, int leaf_count, int* order) {
+	for (int i = 0; i < count; i++) order[i] = i;
+	divide(order, 0, count, leaf_count, centres);
 }
 
 static JnStatus sort_triangles(JnTriangleTree* tree) {
@@ -92,9 +97,8 @@ static JnStatus sort_triangles(JnTriangleTree* tree) {
 	for (int i = 0; i < count; i++) {
 		const JnTreeBox box = box_of(&tree->surface, i);
 		for (int a = 0; a < 3; a++) centres[3 * (ptrdiff_t)i + a] = 0.5 * box.low[a] + 0.5 * box.high[a];
-		tree->order[i] = i;
 	}
-	divide(tree, 0, count, tree->leaf_count, centres);
+	jn_tree_sort(count, centres, tree->leaf_count, tree->order);
 	jn_arena_free(&scratch);
 	return JN_OK;
 }
@@ -210,14 +214,19 @@ static Weights nearest_weights(const double* a, const double* b, const double* c
 	return (Weights){fmax(vb / sum, 0), fmax(vc / sum, 0)};
 }
 
+void jn_triangle_nearest(const double a[3], const double b[3], const double c[3], const double p[3],
+						 double weights[3]) {
+	const Weights found = nearest_weights(a, b, c, p);
+	weights[0] = fmax(1 - found.second - found.third, 0);
+	weights[1] = found.second;
+	weights[2] = found.third;
+}
+
 static JnSurfacePoint nearest_on(const JnSurface* surface, int triangle, const double p[3]) {
 	JnSurfacePoint out = {.triangle = triangle};
 	const double *a = corner(surface, triangle, 0), *b = corner(surface, triangle, 1),
 				 *c = corner(surface, triangle, 2);
-	const Weights found = nearest_weights(a, b, c, p);
-	out.weights[0] = fmax(1 - found.second - found.third, 0);
-	out.weights[1] = found.second;
-	out.weights[2] = found.third;
+	jn_triangle_nearest(a, b, c, p, out.weights);
 	double away[3];
 	for (int i = 0; i < 3; i++) {
 		out.at[i] = out.weights[0] * a[i] + out.weights[1] * b[i] + out.weights[2] * c[i];

@@ -31,6 +31,14 @@ typedef struct JnSurfacePoint {
 	double distance;   ///< from the point asked for [m]; infinite when there is no triangle
 } JnSurfacePoint;
 
+/// Weights of the nodes of triangle a b c at its point nearest to p: none is negative, they sum to 1. One that is 0 says
+/// that the point lies on the edge opposite.
+void jn_triangle_nearest(const double a[3], const double b[3], const double c[3], const double p[3], double weights[3]);
+
+/// Fill order[count] with the numbers of triangles whose centres are given (3 * count), near ones beside each other: the
+/// order of a tree with `leaf_count` leaves, a power of two, enough for all.
+void jn_tree_sort(int count, const double* centres, int leaf_count, int* order);
+
 /// Build the tree of a surface, all of whose coordinates are finite; memory comes from the arena.
 JnStatus jn_triangle_tree_create(const JnSurface* surface, JnArena* arena, JnTriangleTree* tree);
 

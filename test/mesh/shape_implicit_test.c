@@ -121,10 +121,10 @@ static void toys_of_voxels_carry_a_finer_surface(void** unused) {
 	shape_free(&c);
 }
 
-static void cells_that_are_too_small_are_refused(void** unused) {
+static void cells_of_senseless_size_are_refused(void** unused) {
 	(void)unused;
 	shape_expect_refusal("{type: duck, size: 1, cell: 0.1 mm}", "ask for larger ones");
-	shape_expect_refusal("{type: beach_ball, size: 1, cell: 5 m}", "nothing of it is as large as");
+	shape_expect_refusal("{type: beach_ball, size: 1, cell: 5 m}", "shape.cell: 5 m is too large for a toy of 1 m");
 	shape_expect_refusal("{type: duck}", "size");
 }
 
@@ -136,7 +136,7 @@ int main(void) {
 		cmocka_unit_test(smaller_cells_give_more_of_them),
 		cmocka_unit_test(a_beach_ball_is_a_sphere_with_grooves),
 		cmocka_unit_test(toys_of_voxels_carry_a_finer_surface),
-		cmocka_unit_test(cells_that_are_too_small_are_refused),
+		cmocka_unit_test(cells_of_senseless_size_are_refused),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
