@@ -212,7 +212,19 @@ static JnStatus solve_root(JnStageSolver* stage) {
 	return jn_stage_loop(stage, jn_stage_iterate_root);
 }
 
+// Accelerations of wild motion, continued, lead anywhere: from a residual above all typical forces, zero may be nearer.
+static JnStatus prefer_zero(JnStageSolver* stage) {
+	JnSpace* space = space_of(stage);
+	const double before = stage->norm;
+	if (!(before * stage->self->newton.tolerance > stage->tolerance)) return JN_OK;
+	space->ops->combine(space, stage->origin, 1, (JnTerm[]){{1, stage->a}});
+	const JnStatus status = begin_again(stage);
+	if (status < JN_OK) return status;
+	return status == JN_OK && stage->norm < before ? JN_OK : jn_stage_return(stage);
+}
+
 static JnStatus solve_minimize(JnStageSolver* stage) {
+	JN_TRY(prefer_zero(stage));
 	stage->lowest = stage->norm;
 	return jn_stage_loop(stage, jn_stage_iterate_minimize);
 }
