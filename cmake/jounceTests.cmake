@@ -6,7 +6,7 @@ find_program(JN_PYTHON NAMES python3)
 mark_as_advanced(JN_PYTHON)
 
 add_library(jounce_test INTERFACE) # what every test is compiled and linked with
-target_include_directories(jounce_test INTERFACE include src test)
+target_include_directories(jounce_test INTERFACE include src test app)
 target_compile_definitions(jounce_test INTERFACE JN_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
 	JN_PYTHON="$<IF:$<BOOL:${JN_PYTHON}>,${JN_PYTHON},python3>"
 	$<$<TARGET_EXISTS:jounce_command>:JN_COMMAND="$<TARGET_FILE:jounce_command>">)

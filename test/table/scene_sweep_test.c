@@ -74,6 +74,9 @@ static void coarsen(const JnBodyDef* body, int index, Sets* sets) {
 	if (strcmp(shape, "box") == 0) coarsen_box(body->shape.options, index, sets);
 	for (size_t i = 0; i < sizeof coarse / sizeof *coarse; ++i)
 		if (strcmp(shape, coarse[i][0]) == 0) add_set(sets, "bodies[%d].shape.%s", index, coarse[i][1]);
+	// Surfaces from elsewhere are not in a clean tree; and a scattered start is a test of its own.
+	if (strcmp(shape, "file") == 0) add_set(sets, "bodies[%d].shape={type: ball, radius: 0.4, cells: 2}", index);
+	if (body->scatter.amplitude > 0) add_set(sets, "bodies[%d].scatter.amplitude=1 mm", index);
 }
 
 static void make_plan(const char* path, Plan* plan) {
