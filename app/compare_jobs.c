@@ -42,11 +42,17 @@ static void handle_signals(void) {
 	sigprocmask(SIG_BLOCK, &ended, NULL);
 }
 
+static const char* scene_of(const CompareJobs* jobs, const CompareRun* run) {
+	return run->scene != NULL ? run->scene : jobs->options->scene;
+}
+
 // All that a run's result depends on, as text.
 static void print_settings(JnTextFile* file, const CompareJobs* jobs, const CompareRun* run) {
 	jn_text_print(file, "jounce %s\n", JN_VERSION);
 	for (int i = 0; i < run->set_count; ++i) jn_text_print(file, "--set %s\n", run->sets[i]);
-	jn_text_print(file, "\n%s", jobs->scene_text);
+	char* scene = compare_file_read(scene_of(jobs, run));
+	jn_text_print(file, "\n%s", scene != NULL ? scene : ""); // the run itself says why it cannot be read
+	free(scene);
 }
 
 static bool has_same_settings(const CompareJobs* jobs, const CompareRun* run, const char* folder) {
@@ -84,10 +90,7 @@ static JnStatus allocate(CompareJobs* jobs) {
 	const size_t count = (size_t)jobs->plan->run_count;
 	jobs->list = calloc(count, sizeof *jobs->list);
 	jobs->order = calloc(count, sizeof *jobs->order);
-	jobs->scene_text = compare_file_read(jobs->options->scene);
-	if (jobs->scene_text == NULL && errno != ENOMEM)
-		return jn_error(JN_IO_FAILED, "%s: cannot be read: %s", jobs->options->scene, strerror(errno));
-	if (jobs->list != NULL && jobs->order != NULL && jobs->scene_text != NULL) return JN_OK;
+	if (jobs->list != NULL && jobs->order != NULL) return JN_OK;
 	return jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for %zu runs", count);
 }
 
@@ -152,7 +155,7 @@ static JnStatus start(CompareJobs* jobs, const CompareRun* run) {
 		arguments[count++] = run->sets[i];
 	}
 	arguments[count++] = "--";
-	arguments[count] = jobs->options->scene;
+	arguments[count] = scene_of(jobs, run);
 	job->process = compare_process_start("/proc/self/exe", arguments, NULL, log);
 	free(arguments);
 	if (job->process < 0) return jn_error(JN_IO_FAILED, "a run cannot be started: %s", strerror(errno));
@@ -190,6 +193,7 @@ static void finish(CompareJobs* jobs, CompareJob* job, int status) {
 	if (has_ended_well(job->folder) && status == 0) {
 		job->state = COMPARE_DONE;
 		++jobs->done;
+		if (jobs->ended != NULL) jobs->ended(job, jobs->user);
 	} else if (jobs->was_stopped && (status == 0 || status == 128 + SIGINT)) {
 		job->state = COMPARE_STOPPED;
 		++jobs->stopped;
@@ -243,5 +247,4 @@ JnStatus compare_jobs_run(CompareJobs* jobs) {
 void compare_jobs_free(CompareJobs* jobs) {
 	free(jobs->list);
 	free(jobs->order);
-	free(jobs->scene_text);
 }

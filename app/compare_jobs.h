@@ -27,7 +27,6 @@ typedef struct CompareJob {
 typedef struct CompareJobs {
 	const CompareOptions* options;
 	const ComparePlan* plan;
-	char* scene_text;
 	CompareJob* list;         ///< one a run of the plan
 	const CompareRun** order; ///< the longest first
 	int next;                 ///< place in `order` of the next to start
@@ -36,9 +35,11 @@ typedef struct CompareJobs {
 	double began;                 ///< clock when the first could start [s]
 	double work_to_do, work_done; ///< steps, of the runs that are not kept
 	bool is_terminal, was_stopped;
+	void (*ended)(const CompareJob* job, void* user); ///< called for each run that is newly done, unless NULL
+	void* user;                                       ///< handed to `ended`
 } CompareJobs;
 
-/// Find out which runs are done already. JN_IO_FAILED after a message. Free with compare_jobs_free in either case.
+/// Find out which runs are done already; `ended` may be set after it. JN_IO_FAILED after a message. Free with compare_jobs_free in either case.
 JnStatus compare_jobs_prepare(const CompareOptions* options, const ComparePlan* plan, CompareJobs* jobs);
 
 /// Run the others. Ctrl-C lets the running ones finish their step and starts no more. A run that fails is marked so; only

@@ -16,13 +16,15 @@ typedef struct CompareKey {
 typedef struct CompareRun {
 	const char* label; ///< "sdirk2 dt=5ms", for people
 	const char* name;  ///< of its folder below runs/: "sdirk2_dt=5ms"; no other run has it
+	const char* scene; ///< path of its scene file; NULL: that of the options
 	int set_count;
 	const char** sets;   ///< all that is set on the scene
 	const char** values; ///< of each key; "" where the reference leaves a key to the scene
 	bool is_reference;
-	double dt;   ///< the value of step.dt when it is varied [s]; NAN otherwise
-	int group;   ///< runs of one group differ in step.dt alone; -1 for the reference
-	double work; ///< steps expected, to begin with the longest and to tell the time left
+	bool may_fail; ///< a failure of this run is a result like any other
+	double dt;     ///< the value of step.dt when it is varied [s]; NAN otherwise
+	int group;     ///< runs of one group differ in step.dt alone; -1 for the reference
+	double work;   ///< steps expected, to begin with the longest and to tell the time left
 } CompareRun;
 
 typedef struct ComparePlan {

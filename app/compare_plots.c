@@ -2,7 +2,6 @@
 // the runs, and can be run again by hand.
 #include "compare_plots.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,8 +9,7 @@
 
 #include "base/folder.h"
 #include "base/log.h"
-#include "compare_files.h"
-#include "compare_process.h"
+#include "compare_drawing.h"
 #include "compare_script.h"
 
 enum { MOST_TICKS = 10, MOST_KEYS = 60, PLOTTED_ROWS = 2000 };
@@ -180,27 +178,6 @@ static JnStatus write_energy(const CompareResults* results, const char* folder) 
 
 // ---- drawing ----
 
-typedef enum Drawing { DRAWN, NOT_DRAWN, NO_GNUPLOT } Drawing;
-
-// Pictures are a courtesy: without them the tables are none the worse, and the scripts can be run later.
-static Drawing draw(const char* folder, const char* name) {
-	char script[64], log[64], path[JN_PATH_SIZE];
-	snprintf(script, sizeof script, "%s.gnuplot", name);
-	snprintf(log, sizeof log, "%s.log", name);
-	const char* const arguments[] = {"gnuplot", script, NULL};
-	const pid_t process = compare_process_start("gnuplot", arguments, folder, log);
-	if (process < 0)
-		jn_warn("no pictures were drawn, since gnuplot cannot be started: %s; the scripts in %s draw them later",
-				strerror(errno), folder);
-	const int status = process >= 0 ? compare_process_wait(process) : 0;
-	if (status != 0) {
-		jn_warn("gnuplot could not draw %s/%s; %s beside it says why", folder, script, log);
-		return NOT_DRAWN;
-	}
-	if (jn_path_join(folder, log, path) == JN_OK) unlink(path);
-	return process >= 0 ? DRAWN : NO_GNUPLOT;
-}
-
 // A picture that this comparison has not got: one of an earlier comparison would say something else.
 static void remove_picture(const char* folder, const char* name) {
 	static const char* const kinds[] = {"gnuplot", "svg", "png"};
@@ -225,7 +202,7 @@ JnStatus compare_plots_draw(const CompareResults* results, int* count) {
 		{"energy", write_energy, energy_curves(results) > 0},
 	};
 	*count = 0;
-	Drawing drawing = DRAWN;
+	CompareDrawing drawing = COMPARE_DRAWN;
 	JN_TRY(jn_path_join(results->plan->directory, "plots", folder));
 	JN_TRY(jn_folder_make(folder));
 	JN_TRY(write_data(results, folder));
@@ -235,8 +212,8 @@ JnStatus compare_plots_draw(const CompareResults* results, int* count) {
 			continue;
 		}
 		JN_TRY(pictures[i].write(results, folder));
-		if (drawing != NO_GNUPLOT) drawing = draw(folder, pictures[i].name);
-		*count += drawing == DRAWN;
+		if (drawing != COMPARE_NO_GNUPLOT) drawing = compare_draw(folder, pictures[i].name);
+		*count += drawing == COMPARE_DRAWN;
 	}
 	return JN_OK;
 }

@@ -18,6 +18,8 @@ typedef struct Command {
 static const Command commands[] = {
 	{"run", app_run, "simulate a scene and record it"},
 	{"compare", app_compare, "run a scene in many variants and compare errors, costs and energies"},
+	{"reproduce", app_reproduce, "make figures and tables of the papers again"},
+	{"mesh", app_mesh, "read, check, fill and write a mesh"},
 	{"check", app_check, "read and validate a scene, run nothing"},
 	{"list", app_list, "show what there is: integrators, materials, elements and more"},
 	{"describe", app_describe, "explain the keys of scene files"},

@@ -1,0 +1,36 @@
+/// @file frames.h
+/// The frames of a recording: where the points of all surfaces are, over time.
+///
+/// Points are those of the surfaces: the nodes of the mesh, or vertices of surfaces where bodies carry some along.
+#ifndef JN_APP_REPRODUCE_FRAMES_H
+#define JN_APP_REPRODUCE_FRAMES_H
+
+#include <hdf5.h>
+
+#include "base/arena.h"
+
+typedef struct Frames {
+	JnArena arena;
+	hid_t file;
+	int count;
+	double* times; ///< count [s]
+	int node_count;
+	double* rest; ///< of the nodes, 3 * node_count [m]
+	int point_count;
+	bool are_nodes; ///< the points are the nodes
+	int triangle_count;
+	int* triangles; ///< 3 * triangle_count points, outward
+	int* bodies;    ///< triangle_count: which body, from 0
+} Frames;
+
+/// Open run.h5 in `folder`. JN_IO_FAILED after a message. Close with frames_close in either case.
+JnStatus frames_open(const char* folder, Frames* frames);
+void frames_close(Frames* frames);
+
+/// The frame nearest to a time.
+int frames_nearest(const Frames* frames, double t);
+
+/// Positions of all points in a frame, 3 * point_count [m].
+JnStatus frames_read(const Frames* frames, int frame, double* points);
+
+#endif

@@ -1,0 +1,42 @@
+/// @file picture.h
+/// Pictures of surfaces: panels side by side, at one scale, drawn with a depth buffer and given a title by gnuplot.
+#ifndef JN_APP_REPRODUCE_PICTURE_H
+#define JN_APP_REPRODUCE_PICTURE_H
+
+#include "reproduce/frames.h"
+
+/// One view of a frame.
+typedef struct Panel {
+	char title[96];
+	const double* points; ///< 3 numbers a point [m]
+	int point_count;
+	int triangle_count;
+	const int* triangles; ///< 3 * triangle_count
+	const int* bodies;    ///< triangle_count numbers that choose colours
+} Panel;
+
+typedef struct Camera {
+	double azimuth;   ///< [deg] about y, from looking along -z towards looking along -x
+	double elevation; ///< [deg] above the horizon
+} Camera;
+
+enum { PICTURE_MOST_PANELS = 12 };
+
+typedef struct Picture {
+	const char* name; ///< of the files: name.png, name.gnuplot, name.rgb
+	Camera camera;
+	int columns;       ///< panels side by side
+	int width, height; ///< of a panel [pixels]
+	int count;
+	Panel panels[PICTURE_MOST_PANELS];
+	JnArena arena; ///< owns what the panels point to
+} Picture;
+
+/// Copy what a frame of a recording shows into the next panel.
+JnStatus picture_add(Picture* picture, const char* folder, double t, const char* title);
+
+/// Write the picture's files into `folder` and draw them. JN_IO_FAILED, JN_OUT_OF_MEMORY.
+JnStatus picture_draw(const Picture* picture, const char* folder);
+void picture_free(Picture* picture);
+
+#endif

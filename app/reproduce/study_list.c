@@ -1,0 +1,6 @@
+// What can be made again: one line a figure or table.
+#include "reproduce/study.h"
+
+const Study* const study_list[] = {
+	&study_ho_fig3, &study_ho_fig4, &study_ho_fig5, &study_ho_fig6, &study_ho_fig7, &study_ho_table1, NULL,
+};
