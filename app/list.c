@@ -9,7 +9,7 @@
 #include "force/kernel.h"
 #include "integrate/integrator.h"
 #include "integrate/properties.h"
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 #include "model/motion.h"
 #include "solve/solver.h"
 

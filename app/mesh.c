@@ -7,9 +7,9 @@
 #include "app.h"
 #include "base/key.h"
 #include "base/timer.h"
-#include "mesh/export.h"
+#include "mesh/format/export.h"
 #include "mesh/quality.h"
-#include "mesh/shape_file.h"
+#include "mesh/shape/shape_file.h"
 #include "options.h"
 
 static const char help[] =

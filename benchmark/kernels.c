@@ -4,7 +4,7 @@
 
 #include "bench.h"
 #include "force/solid.h"
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 
 const char* const verb_names[VERBS] = {"energy", "force", "tangent", "definite"};
 

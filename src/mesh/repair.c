@@ -8,7 +8,7 @@
 
 #include "base/log.h"
 #include "math/mat3.h"
-#include "mesh/import.h"
+#include "mesh/repair.h"
 
 /// Thinner than this, in units of its longest edge cubed, a cell has no volume.
 static const double LEAST_VOLUME = 1e-12;

@@ -91,8 +91,7 @@ static void add_change(char* text, size_t size, int count, const char* change) {
 	if (count > 0) snprintf(text + used, size - used, "%s%d %s", used > 0 ? ", " : "", count, change);
 }
 
-JnStatus jn_surface_repair(JnSurface* surface, const char* what, JnArena* arena) {
-	(void)arena; // all is done in place; the arrays keep their memory
+JnStatus jn_surface_repair(JnSurface* surface, const char* what) {
 	JN_TRY(jn_surface_check_values(surface, what));
 	const double distance = WELD_SHARE * jn_surface_extent(surface);
 	const int joined = jn_surface_weld(surface, distance);

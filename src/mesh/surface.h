@@ -22,7 +22,7 @@ double jn_surface_volume(const JnSurface* surface);
 /// triangle uses go, neighbours are turned to agree and the whole to face outward, part by part. What was changed is
 /// said in one warning that begins with `what`. JN_BAD_INPUT when it cannot be done (three triangles at an edge, a
 /// Moebius strip): the message names the first offenders.
-JnStatus jn_surface_repair(JnSurface* surface, const char* what, JnArena* arena);
+JnStatus jn_surface_repair(JnSurface* surface, const char* what);
 
 /// Does the surface bound a solid? JN_BAD_INPUT with a message that names the first offenders (numbers, positions, how
 /// many in all) for open edges, edges of more than two triangles, and triangles that cross.

@@ -8,7 +8,7 @@
 
 #include "base/log.h"
 #include "base/random.h"
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 #include "model/mass.h"
 #include "model/select.h"
 #include "model/system.h"

@@ -2,7 +2,7 @@
 #include "force/kernel.h"
 #include "force/wind.h"
 #include "jounce/model.h"
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 #include "model/motion.h"
 
 static const char* const masses[] = {"consistent", "lumped", NULL};

@@ -1,5 +1,5 @@
 // Whole meshes: the patch test on distorted boxes, and consistent masses against integrals known in closed form.
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 #include "sample.h"
 
 /// A box of 3 x 3 x 3 hexahedra, 0.3 x 0.6 x 0.9 m, interior nodes moved at random; mid-edge nodes stay in the middle.

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "mesh/boundary.h"
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 #include "mesh/surface.h"
 
 static JnMesh make(int shape, JnArena* arena) {

@@ -10,7 +10,7 @@
 
 #include "base/log.h"
 #include "mesh/embed.h"
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 
 enum { POINTS = 500 };
 

@@ -9,9 +9,9 @@
 
 #include <cmocka.h>
 
-#include "mesh/export.h"
-#include "mesh/import.h"
-#include "mesh/shape.h"
+#include "mesh/format/export.h"
+#include "mesh/format/import.h"
+#include "mesh/shape/shape.h"
 #include "support/support.h"
 
 static const char* const names[] = {"mesh.msh", "mesh.vtu"};

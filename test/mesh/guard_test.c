@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 #include "base/log.h"
-#include "mesh/guard.h"
+#include "mesh/format/guard.h"
 #include "support/support.h"
 
 static const JnGuardLimits limits = {.memory = (size_t)256 << 20, .seconds = 10};

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "mesh/export.h"
-#include "mesh/import.h"
+#include "mesh/format/export.h"
+#include "mesh/format/import.h"
 #include "support/support.h"
 #include "surface_case.h"
 

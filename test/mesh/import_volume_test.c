@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "mesh/import.h"
-#include "mesh/shape.h"
+#include "mesh/format/import.h"
+#include "mesh/shape/shape.h"
 #include "support/support.h"
 
 static const char* const shape_names[JN_SHAPE_COUNT] = {"tet4", "tet10", "hex8"};

@@ -1,8 +1,8 @@
 // Zero sets as surfaces: closed, on the zero set, well shaped, the same each time; also those of wild functions.
-#include "mesh/isosurface.h"
+#include "mesh/fill/isosurface.h"
 
-#include "mesh/distance.h"
-#include "mesh/remesh.h"
+#include "mesh/fill/remesh.h"
+#include "mesh/shape/distance.h"
 #include "surface_case.h"
 
 static double sphere_at(const void* shape, const double p[3]) {

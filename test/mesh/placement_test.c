@@ -1,6 +1,6 @@
 // Units, axes, size and place of what comes from a file, and their keys.
 #include "base/key.h"
-#include "mesh/placement.h"
+#include "mesh/shape/placement.h"
 #include "surface_case.h"
 
 static const JnPlacementDef as_it_is = {.scale = 1};

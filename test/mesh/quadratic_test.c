@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "mesh/quadratic.h"
-#include "mesh/shape.h"
+#include "mesh/fill/quadratic.h"
+#include "mesh/shape/shape.h"
 
 static const JnBoxDef box = {.size = {1, 2, 3}, .cells = {2, 3, 2}};
 

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "mesh/quality.h"
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 
 /// Tens of roundings of numbers near 1.
 static const double ROUNDING = 1e-14;

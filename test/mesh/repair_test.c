@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
-#include "mesh/import.h"
-#include "mesh/shape.h"
+#include "mesh/repair.h"
+#include "mesh/shape/shape.h"
 #include "support/support.h"
 
 static JnMesh make(int shape, JnArena* arena) {

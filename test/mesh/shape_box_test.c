@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 
 static const JnBoxDef box = {.origin = {1, -2, 3}, .size = {0.5, 0.25, 2}, .cells = {3, 2, 4}};
 

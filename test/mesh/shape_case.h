@@ -15,7 +15,7 @@
 #include "base/key.h"
 #include "mesh/boundary.h"
 #include "mesh/quality.h"
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 #include "support/support.h"
 
 typedef struct ShapeCase {

@@ -1,5 +1,5 @@
 // Ropes: the curve through their points, frames that do not twist, ends.
-#include "mesh/curve.h"
+#include "mesh/shape/curve.h"
 #include "mesh/shape_case.h"
 
 static double dot(const double a[3], const double b[3]) {

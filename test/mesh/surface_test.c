@@ -27,7 +27,7 @@ static void good_surface_passes_repair_unchanged_and_silent(void** state) {
 	JnSurface s = surface_sphere(&arena, 1, 8);
 	const JnSurface before = surface_sphere(&arena, 1, 8);
 	words_keep(&words);
-	assert_int_equal(jn_surface_repair(&s, "ball", &arena), JN_OK);
+	assert_int_equal(jn_surface_repair(&s, "ball"), JN_OK);
 	assert_int_equal(words.warnings + words.errors, 0);
 	assert_int_equal(s.node_count, before.node_count);
 	assert_memory_equal(s.nodes, before.nodes, 3 * (size_t)s.node_count * sizeof *s.nodes);
@@ -43,7 +43,7 @@ static void inside_out_surface_is_turned(void** state) {
 	for (int i = 0; i < 12; i++) surface_reverse(&s, i);
 	assert_near("volume before", jn_surface_volume(&s), -1, 0);
 	words_keep(&words);
-	assert_int_equal(jn_surface_repair(&s, "cube", &arena), JN_OK);
+	assert_int_equal(jn_surface_repair(&s, "cube"), JN_OK);
 	assert_near("volume", jn_surface_volume(&s), 1, 0);
 	assert_int_equal(words.warnings, 1);
 	assert_says(&words, "cube: repaired: 12 triangles turned");
@@ -58,7 +58,7 @@ static void any_single_flipped_triangle_is_turned_back(void** state) {
 		JnSurface s = surface_cube(&arena, 0, 1);
 		surface_reverse(&s, flipped);
 		words_keep(&words);
-		assert_int_equal(jn_surface_repair(&s, "cube", &arena), JN_OK);
+		assert_int_equal(jn_surface_repair(&s, "cube"), JN_OK);
 		assert_true(jn_surface_volume(&s) == 1);
 		assert_says(&words, "repaired: 1 triangles turned");
 	}
@@ -84,7 +84,7 @@ static void soup_is_welded_and_its_scraps_go_with_one_warning(void** state) {
 	const JnSurface cube = surface_cube(&arena, 0, 1);
 	JnSurface s = triangle_soup(&arena, &cube, 1e-10); // a tenth of the distance at which nodes are joined
 	words_keep(&words);
-	assert_int_equal(jn_surface_repair(&s, "soup", &arena), JN_OK);
+	assert_int_equal(jn_surface_repair(&s, "soup"), JN_OK);
 	assert_int_equal(s.node_count, 8);
 	assert_int_equal(s.triangle_count, 12);
 	assert_near("volume", jn_surface_volume(&s), 1, 1e-9); // six faces moved by up to 1e-10
@@ -102,7 +102,7 @@ static void nodes_farther_apart_than_the_tolerance_stay(void** state) {
 	Words words;
 	JnSurface s = triangle_soup(&arena, &cube, 1e-8); // ten times the distance
 	words_keep(&words);
-	(void)jn_surface_repair(&s, "soup", &arena);
+	(void)jn_surface_repair(&s, "soup");
 	assert_true(s.node_count > 8);
 	jn_arena_free(&arena);
 }
@@ -116,7 +116,7 @@ static void cavity_faces_inward_and_a_kernel_in_it_outward(void** state) {
 	const JnSurface two = surface_join(&arena, &hole, &outer, 0);
 	JnSurface s = surface_join(&arena, &two, &core, 0);
 	words_keep(&words);
-	assert_int_equal(jn_surface_repair(&s, "nut", &arena), JN_OK);
+	assert_int_equal(jn_surface_repair(&s, "nut"), JN_OK);
 	assert_near("volume", jn_surface_volume(&s), 64 - 8 + 1, 1e-12); // rounding of some hundred products below 100
 	assert_says(&words, "12 triangles turned");
 	assert_int_equal(jn_surface_check_closed(&s, "nut"), JN_OK);
@@ -132,7 +132,7 @@ static void parts_beside_each_other_both_face_outward(void** state) {
 	for (int i = 0; i < 12; i++) surface_reverse(&b, i);
 	JnSurface s = surface_join(&arena, &a, &b, 3);
 	words_keep(&words);
-	assert_int_equal(jn_surface_repair(&s, "pair", &arena), JN_OK);
+	assert_int_equal(jn_surface_repair(&s, "pair"), JN_OK);
 	assert_near("volume", jn_surface_volume(&s), 2, 1e-14); // few roundings of numbers up to 4
 	jn_arena_free(&arena);
 }
@@ -152,7 +152,7 @@ static void flat_triangle_on_an_edge_is_joined_with_its_neighbour(void** state) 
 	put_triangle(&s, 12, 8, t[1], t[2]);
 	put_triangle(&s, 13, t[0], t[1], 8);
 	words_keep(&words);
-	assert_int_equal(jn_surface_repair(&s, "cap", &arena), JN_OK);
+	assert_int_equal(jn_surface_repair(&s, "cap"), JN_OK);
 	assert_says(&words, "1 triangles without area joined");
 	assert_int_equal(s.triangle_count, 14);
 	assert_int_equal(jn_surface_check_closed(&s, "cap"), JN_OK);
@@ -167,7 +167,7 @@ static void moebius_strip_is_refused(void** state) {
 	Words words;
 	JnSurface s = surface_moebius(&arena, 20);
 	words_keep(&words);
-	assert_int_equal(jn_surface_repair(&s, "strip", &arena), JN_BAD_INPUT);
+	assert_int_equal(jn_surface_repair(&s, "strip"), JN_BAD_INPUT);
 	assert_says(&words, "strip: a part of the surface has one side only");
 	jn_arena_free(&arena);
 }
@@ -182,7 +182,7 @@ static void three_triangles_at_an_edge_are_refused_by_position(void** state) {
 	memcpy(s.triangles, cube.triangles, 36 * sizeof *s.triangles);
 	put_triangle(&s, 12, 0, 1, 7); // an inner wall on the edge 0 1, and on 1 7 and 0 7
 	words_keep(&words);
-	assert_int_equal(jn_surface_repair(&s, "wall", &arena), JN_BAD_INPUT);
+	assert_int_equal(jn_surface_repair(&s, "wall"), JN_BAD_INPUT);
 	assert_says(&words, "more than two triangles: (0, 0, 0)-(1, 0, 0)");
 	jn_arena_free(&arena);
 }
@@ -196,7 +196,7 @@ static void coordinates_that_are_no_numbers_are_refused(void** state) {
 		JnSurface s = surface_cube(&arena, 0, 1);
 		s.nodes[3 * 5 + 1] = bad[i];
 		words_keep(&words);
-		assert_int_equal(jn_surface_repair(&s, "cube", &arena), JN_BAD_INPUT);
+		assert_int_equal(jn_surface_repair(&s, "cube"), JN_BAD_INPUT);
 		assert_says(&words, "node 5 at");
 	}
 	jn_arena_free(&arena);
@@ -209,7 +209,7 @@ static void node_numbers_out_of_range_are_refused(void** state) {
 	JnSurface s = surface_cube(&arena, 0, 1);
 	s.triangles[7] = 8;
 	words_keep(&words);
-	assert_int_equal(jn_surface_repair(&s, "cube", &arena), JN_BAD_INPUT);
+	assert_int_equal(jn_surface_repair(&s, "cube"), JN_BAD_INPUT);
 	assert_says(&words, "triangle 2 names node 8");
 	jn_arena_free(&arena);
 }
@@ -220,8 +220,8 @@ static void surface_without_area_is_refused(void** state) {
 	Words words;
 	JnSurface point = surface_cube(&arena, 3, 0), none = surface_new(&arena, 0, 0);
 	words_keep(&words);
-	assert_int_equal(jn_surface_repair(&point, "point", &arena), JN_BAD_INPUT);
-	assert_int_equal(jn_surface_repair(&none, "none", &arena), JN_BAD_INPUT);
+	assert_int_equal(jn_surface_repair(&point, "point"), JN_BAD_INPUT);
+	assert_int_equal(jn_surface_repair(&none, "none"), JN_BAD_INPUT);
 	assert_says(&words, "point: no triangle has an area");
 	jn_arena_free(&arena);
 }

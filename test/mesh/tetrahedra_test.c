@@ -1,12 +1,12 @@
 // Surfaces filled with tetrahedra: their volume, faces and quality, the same each time; the scanned models where they are.
-#include "mesh/tetrahedra.h"
+#include "mesh/fill/tetrahedra.h"
 
 #include <unistd.h>
 
 #include "mesh/boundary.h"
-#include "mesh/import.h"
+#include "mesh/fill/resurface.h"
+#include "mesh/format/import.h"
 #include "mesh/quality.h"
-#include "mesh/resurface.h"
 #include "surface_case.h"
 
 /// Without Gmsh there is nothing to be tested.

@@ -10,8 +10,8 @@
 
 #include "base/log.h"
 #include "mesh/embed.h"
-#include "mesh/voxel_grid.h"
-#include "mesh/voxels.h"
+#include "mesh/fill/voxel_grid.h"
+#include "mesh/fill/voxels.h"
 
 static char messages[2048];
 

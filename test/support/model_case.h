@@ -18,7 +18,7 @@
 #include "force/kernel.h"
 #include "integrate/integrator.h"
 #include "jounce/sim.h"
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 #include "model/motion.h"
 #include "solve/solver.h"
 

@@ -15,7 +15,7 @@
 #include "control/controller.h"
 #include "integrate/integrator.h"
 #include "jounce/scene.h"
-#include "mesh/shape.h"
+#include "mesh/shape/shape.h"
 #include "support/support.h"
 
 enum { MOST_SETS = 40, SET_LENGTH = 96, MOST_CELLS = 32, STEPS = 3 };

@@ -1,0 +1,76 @@
+// Sheets: thin plates, such as a cloth of one layer of hexahedra.
+#include "mesh/shape/blocks.h"
+#include "mesh/shape/shape_keys.h"
+
+typedef struct SheetDef {
+	double origin[3];
+	double size[2], thickness;
+	int cells[2], layers;
+	int plane; // 0 xy, 1 xz, 2 yz
+	int element;
+} SheetDef;
+
+static const char* const planes[] = {"xy", "xz", "yz", NULL};
+
+/// Axes along u, v and across, by plane.
+static const int axes[3][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}};
+
+static void place(const JnBlock* block, const int at[3], double X[3]) {
+	const SheetDef* def = block->options;
+	const double size[3] = {def->size[0], def->size[1], def->thickness};
+	for (int k = 0; k < 3; ++k) {
+		const int axis = axes[def->plane][k];
+		X[axis] = def->origin[axis] + size[k] * at[k] / block->cells[k];
+	}
+}
+
+static JnStatus generate(const void* options, const char* what, JnArena* arena, JnMesh* mesh) {
+	const SheetDef* def = options;
+	const JnBlock block = {.cells = {def->cells[0], def->cells[1], def->layers},
+						   .place = place,
+						   .options = def,
+						   .sets = {"left", "right", "lower", "upper"}};
+	return jn_blocks_join(1, &block, (JnShape)def->element, what, arena, mesh);
+}
+
+static const JnKey keys[] = {
+	{.name = "plane",
+	 .kind = JN_CHOICE,
+	 .field = offsetof(SheetDef, plane),
+	 .names = planes,
+	 .meaning = "the axes along its two edges; it is thick along the third"},
+	JN_POSITION_KEY(SheetDef, origin, "corner with the lowest coordinates"),
+	{.name = "size",
+	 .kind = JN_REAL2,
+	 .field = offsetof(SheetDef, size),
+	 .high = INFINITY,
+	 .open = JN_OPEN_LOW | JN_OPEN_HIGH,
+	 .required = true,
+	 .unit = "m",
+	 .meaning = "edge lengths along the two axes of the plane"},
+	JN_LENGTH_KEY(SheetDef, thickness, "edge length across"),
+	{.name = "cells",
+	 .kind = JN_INTEGER2,
+	 .field = offsetof(SheetDef, cells),
+	 .low = 1,
+	 .high = 4096,
+	 .required = true,
+	 .meaning = "hexahedra along the two edges"},
+	{.name = "layers",
+	 .kind = JN_INTEGER,
+	 .field = offsetof(SheetDef, layers),
+	 .value = {1},
+	 .low = 1,
+	 .high = 4096,
+	 .meaning = "hexahedra across the thickness"},
+	JN_ELEMENT_KEY(SheetDef),
+	{0},
+};
+
+const JnShapeType jn_shape_sheet = {
+	.row = {"sheet",
+			"A thin plate in a plane of two axes; its edges are the sets left, right (along the first axis), lower, "
+			"upper.",
+			keys, sizeof(SheetDef)},
+	.generate = generate,
+};
