@@ -17,7 +17,8 @@ static const char help[] =
 	"  --set key=value   override any key: --set integrator.method=sdirk2 --set step.dt=33ms\n"
 	"  --threads N       default: as many as there are processors\n"
 	"  -q, --quiet       no progress, no summary\n\n"
-	"Writes run.h5, run.xdmf (ParaView), series.csv, summary.json and plots/, over those of an earlier run.\n"
+	"Writes run.h5, run.xdmf and surface.xdmf (ParaView), series.csv, summary.json and plots/, over those of an "
+	"earlier run.\n"
 	"Ctrl-C finishes the step and completes the files (exit status 0, outcome \"interrupted\"); a second one ends at "
 	"once.";
 
@@ -101,7 +102,7 @@ static void print_summary(const Display* display, const JnSceneDef* def, const J
 	printf("\n%.2f Newton iterations a step, %ld factorisations, %ld rejected attempts\n", (double)r->newton / steps,
 		   r->factorizations, r->rejected);
 	printf("energy error |e(t) - e(0)|: %.6g J/kg\n", r->specific_error);
-	printf("wrote %s: run.h5 (%ld frame%s), run.xdmf, series.csv, summary.json%s\n", directory, r->frames,
+	printf("wrote %s: run.h5 (%ld frame%s), run.xdmf, surface.xdmf, series.csv, summary.json%s\n", directory, r->frames,
 		   r->frames == 1 ? "" : "s", def->record.plots ? ", plots/" : "");
 }
 

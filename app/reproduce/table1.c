@@ -33,7 +33,7 @@ static double cloth_duration(const StudyRun* run) {
 	return run->options->is_quick ? 0.2 : 0.5;
 }
 
-enum { MOST_PLAIN_STEPS = 100 };
+enum { MOST_PLAIN_STEPS = 50 };
 
 // The same steps as in the paper: plain Newton, a new matrix and factor for each iteration. Few steps tell its pace.
 static void add_plain(StudyRun* run, double dt) {

@@ -10,9 +10,6 @@ enum { MOST_STEPS = 30 };
 static const double PRECISION = 1e-10; // of xi: the slope in the weights takes away what is left
 static const double FAR = 1e3;         // cells away from the cell: Newton's method is lost
 
-static const int hex_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-									 {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-
 /// Shape functions N[i] and their slopes G[i][r] = dN_i/dxi_r.
 static void shape_functions(JnShape shape, const double xi[3], double N[], double G[][3]) {
 	if (shape == JN_TET4) {
@@ -25,9 +22,9 @@ static void shape_functions(JnShape shape, const double xi[3], double N[], doubl
 	}
 	for (int i = 0; i < 8; ++i) {
 		double part[3];
-		for (int r = 0; r < 3; ++r) part[r] = hex_corner[i][r] == 1 ? xi[r] : 1 - xi[r];
+		for (int r = 0; r < 3; ++r) part[r] = jn_hex_corner[i][r] == 1 ? xi[r] : 1 - xi[r];
 		N[i] = part[0] * part[1] * part[2];
-		for (int r = 0; r < 3; ++r) G[i][r] = (2 * hex_corner[i][r] - 1) * part[(r + 1) % 3] * part[(r + 2) % 3];
+		for (int r = 0; r < 3; ++r) G[i][r] = (2 * jn_hex_corner[i][r] - 1) * part[(r + 1) % 3] * part[(r + 2) % 3];
 	}
 }
 

@@ -13,6 +13,9 @@ const JnShapeInfo jn_shape_info[JN_SHAPE_COUNT] = {
 	[JN_HEX8] = {"hex8", 8, 12, "Hexahedron", 6, 4, hex8_faces},
 };
 
+const int jn_hex_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+								 {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+
 static double tet_volume(const JnMesh* mesh, const int* nodes) {
 	const double* origin = mesh->nodes + 3 * (ptrdiff_t)nodes[0];
 	double edges[3][3];
@@ -24,8 +27,6 @@ static double tet_volume(const JnMesh* mesh, const int* nodes) {
 
 /// det J has degree 2 in each coordinate: 2x2x2 Gauss points are exact.
 static double hex_volume(const JnMesh* mesh, const int* nodes) {
-	static const int corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-									 {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 	const double near_weight = 0.5 + 0.5 / sqrt(3.0); // of a corner's own side, at the Gauss point next to it
 	double volume = 0;
 	for (int point = 0; point < 8; point++) {
@@ -33,12 +34,12 @@ static double hex_volume(const JnMesh* mesh, const int* nodes) {
 		for (int i = 0; i < 8; i++) {
 			double factor[3];
 			for (int r = 0; r < 3; r++) {
-				factor[r] = corner[i][r] == corner[point][r] ? near_weight : 1 - near_weight;
+				factor[r] = jn_hex_corner[i][r] == jn_hex_corner[point][r] ? near_weight : 1 - near_weight;
 			}
 			const double* X = mesh->nodes + 3 * (ptrdiff_t)nodes[i];
 			for (int k = 0; k < 9; k++) {
 				const int r = k % 3;
-				const double slope = (2 * corner[i][r] - 1) * factor[(r + 1) % 3] * factor[(r + 2) % 3];
+				const double slope = (2 * jn_hex_corner[i][r] - 1) * factor[(r + 1) % 3] * factor[(r + 2) % 3];
 				J[k / 3][r] += (X[k / 3] - mesh->nodes[3 * (ptrdiff_t)nodes[0] + k / 3]) * slope;
 			}
 		}

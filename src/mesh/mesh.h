@@ -21,6 +21,9 @@ typedef struct JnShapeInfo {
 
 extern const JnShapeInfo jn_shape_info[JN_SHAPE_COUNT];
 
+/// The corners of a hex8 in the unit cube, in VTK's order.
+extern const int jn_hex_corner[8][3];
+
 /// Nodes that a file or a generator gave a name, such as the "plate" under a jello.
 typedef struct JnNodeSet {
 	const char* name;

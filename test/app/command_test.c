@@ -262,8 +262,8 @@ static void selection_without_nodes_creates_nothing(void** state) {
 
 static void run_writes_all_its_files(void** state) {
 	(void)state;
-	static const char* const files[] = {"run.h5",           "run.xdmf",         "series.csv",          "summary.json",
-										"plots/energy.svg", "plots/energy.png", "plots/energy.gnuplot"};
+	static const char* const files[] = {"run.h5",       "run.xdmf",         "surface.xdmf",     "series.csv",
+										"summary.json", "plots/energy.svg", "plots/energy.png", "plots/energy.gnuplot"};
 	Outcome outcome = RUN(0, "run", "block.yaml", "--set", "record.plots=yes", "--threads", "1");
 	assert_string_equal(outcome.err, "");
 	expect_part(outcome.out, "block.yaml: 'block' with sdirk2 over 0.1 s\n");

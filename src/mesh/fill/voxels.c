@@ -13,9 +13,6 @@ static const double MOST_CUBES = 1e8; // of the grid: a byte each
 static const int MOST_CELLS = 20000000;
 static const double SLACK = 1e-6; // of the size: 0.3 m are three cubes of 0.1 m, whatever rounding says
 
-static const int hex_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-									 {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-
 static JnStatus lay_out(const JnSurface* surface, double size, const char* what, JnVoxelGrid* grid) {
 	double counts[3];
 	grid->size = size;
@@ -64,7 +61,7 @@ static int count_full(const JnVoxelGrid* grid) {
 /// Is (i, j, k) a corner of a full cube?
 static bool is_node(const JnVoxelGrid* grid, int i, int j, int k) {
 	for (int c = 0; c < 8; ++c) {
-		const int at[3] = {i - hex_corner[c][0], j - hex_corner[c][1], k - hex_corner[c][2]};
+		const int at[3] = {i - jn_hex_corner[c][0], j - jn_hex_corner[c][1], k - jn_hex_corner[c][2]};
 		if (jn_voxel_is_full(grid, at)) return true;
 	}
 	return false;
@@ -92,8 +89,8 @@ static int* put_layer(const JnVoxelGrid* grid, int k, int* const planes[2], int*
 			const int at[3] = {i, j, k};
 			if (!jn_voxel_is_full(grid, at)) continue;
 			for (int c = 0; c < 8; ++c) {
-				const int place = (j + hex_corner[c][1]) * (grid->counts[0] + 1) + i + hex_corner[c][0];
-				*cells++ = planes[hex_corner[c][2]][place];
+				const int place = (j + jn_hex_corner[c][1]) * (grid->counts[0] + 1) + i + jn_hex_corner[c][0];
+				*cells++ = planes[jn_hex_corner[c][2]][place];
 			}
 		}
 	}

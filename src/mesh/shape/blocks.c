@@ -10,9 +10,6 @@
 static const double MOST_CELLS = 2e7;
 static const double SAME_PLACE = 1e-7; // of the size; cells are larger by far, rounding is smaller by far
 
-static const int hex_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-									 {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
-
 /// Nodes of blocks as they are placed, before and after those that coincide are one.
 typedef struct Weld {
 	double* points; // 3 a point, block by block
@@ -80,7 +77,7 @@ static bool is_same(const Weld* weld, int a, int b) {
 static int find_earlier(const Weld* weld, int point) {
 	for (int corner = 0; corner < 8; ++corner) {
 		double shift[3];
-		for (int axis = 0; axis < 3; ++axis) shift[axis] = (2 * hex_corner[corner][axis] - 1) * weld->reach;
+		for (int axis = 0; axis < 3; ++axis) shift[axis] = (2 * jn_hex_corner[corner][axis] - 1) * weld->reach;
 		int other = weld->first[slot_of(weld, weld->points + 3 * (size_t)point, shift)];
 		while (other >= 0 && !is_same(weld, other, point)) other = weld->next[other];
 		if (other >= 0) return other;
@@ -130,7 +127,8 @@ static int put_block(const JnBlock* block, const int* node, JnMesh* mesh, int ce
 		const int low[3] = {k % block->cells[0], k / block->cells[0] % block->cells[1],
 							k / block->cells[0] / block->cells[1]};
 		for (int i = 0; i < 8; ++i) {
-			const int at[3] = {low[0] + hex_corner[i][0], low[1] + hex_corner[i][1], low[2] + hex_corner[i][2]};
+			const int at[3] = {low[0] + jn_hex_corner[i][0], low[1] + jn_hex_corner[i][1],
+							   low[2] + jn_hex_corner[i][2]};
 			mesh->cells[8 * (size_t)cell + (size_t)i] = node[point_at(block, at)];
 		}
 	}

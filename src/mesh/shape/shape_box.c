@@ -16,8 +16,6 @@ static const double MOST_CELLS = 2e7;
 /// Steps of the walks, for even orders first; the odd ones exchange two nodes to keep their volume positive.
 static const int walks[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
 static const int edges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
-static const int hex_corner[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
-									 {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 
 /// Grid points along each axis, and how many grid intervals make a hexahedron.
 typedef struct Grid {
@@ -42,7 +40,7 @@ static void place_nodes(const JnBoxDef* def, const Grid* grid, JnMesh* mesh) {
 /// The hexahedron whose lowest corner is `low` in units of hexahedra.
 static int* put_hex(const Grid* grid, const int low[3], int* cells) {
 	for (int i = 0; i < 8; i++) {
-		const int at[3] = {low[0] + hex_corner[i][0], low[1] + hex_corner[i][1], low[2] + hex_corner[i][2]};
+		const int at[3] = {low[0] + jn_hex_corner[i][0], low[1] + jn_hex_corner[i][1], low[2] + jn_hex_corner[i][2]};
 		*cells++ = grid_node(grid, at);
 	}
 	return cells;
