@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "math/vec3.h"
+
 enum { FINER = 2, COLOURS = 4 };
 
 static const double edge_cosine = 0.72; // beyond some 44 degrees an edge is shown; on those of a box it is 45
@@ -24,25 +26,15 @@ typedef struct Canvas {
 	float* colour; // 3 a pixel
 } Canvas;
 
-static double dot(const double a[3], const double b[3]) {
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3]) {
-	out[0] = a[1] * b[2] - a[2] * b[1];
-	out[1] = a[2] * b[0] - a[0] * b[2];
-	out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 static void normalise(double a[3]) {
-	const double length = sqrt(dot(a, a));
+	const double length = sqrt(vec3_dot(a, a));
 	for (int i = 0; i < 3; ++i) a[i] = length > 0 ? a[i] / length : 0;
 }
 
 static void to_axes(const View* view, const double p[3], double out[3]) {
-	out[0] = dot(p, view->right);
-	out[1] = dot(p, view->up);
-	out[2] = dot(p, view->back);
+	out[0] = vec3_dot(p, view->right);
+	out[1] = vec3_dot(p, view->up);
+	out[2] = vec3_dot(p, view->back);
 }
 
 // ---- the camera ----
@@ -67,9 +59,9 @@ View raster_view(const Picture* picture) {
 				 .width = FINER * picture->width,
 				 .height = FINER * picture->height};
 	double low[3], high[3];
-	cross(world_up, view.back, view.right);
+	vec3_cross(world_up, view.back, view.right);
 	normalise(view.right);
-	cross(view.back, view.right, view.up);
+	vec3_cross(view.back, view.right, view.up);
 	bound(picture, &view, low, high);
 	const double wide = fmax(high[0] - low[0], 1e-9), tall = fmax(high[1] - low[1], 1e-9);
 	for (int i = 0; i < 3; ++i) view.middle[i] = (low[i] + high[i]) / 2;
@@ -98,7 +90,7 @@ static void face_normal(const Panel* panel, int triangle, double out[3]) {
 		edges[0][i] = panel->points[3 * (size_t)t[1] + (size_t)i] - start;
 		edges[1][i] = panel->points[3 * (size_t)t[2] + (size_t)i] - start;
 	}
-	cross(edges[0], edges[1], out);
+	vec3_cross(edges[0], edges[1], out);
 }
 
 static void add_normals(const Panel* panel, double* normals) {
@@ -122,8 +114,8 @@ static void shade(const double raw[3], int body, float out[3]) {
 	for (int l = 0; l < 2; ++l) {
 		double half[3] = {lights[l][0], lights[l][1], lights[l][2] + 1};
 		normalise(half);
-		diffuse += lights[l][3] * fmax(dot(normal, lights[l]), 0);
-		gloss += 0.35 * lights[l][3] * pow(fmax(dot(normal, half), 0), 40);
+		diffuse += lights[l][3] * fmax(vec3_dot(normal, lights[l]), 0);
+		gloss += 0.35 * lights[l][3] * pow(fmax(vec3_dot(normal, half), 0), 40);
 	}
 	for (int i = 0; i < 3; ++i) out[i] = (float)fmin(diffuse * colours[body % COLOURS][i] + gloss, 1);
 }
@@ -167,7 +159,7 @@ static void draw_triangle(Canvas* canvas, const Panel* panel, const View* view, 
 		const size_t node = (size_t)panel->triangles[3 * triangle + i];
 		project(view, panel->points + 3 * node, &corners[i]);
 		const double* smooth = normals + 3 * node;
-		to_axes(view, dot(smooth, own) > edge_cosine ? smooth : own, corners[i].normal);
+		to_axes(view, vec3_dot(smooth, own) > edge_cosine ? smooth : own, corners[i].normal);
 	}
 	fill(canvas, corners, panel->bodies[triangle]);
 }

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/processor.h"
+#include "math/vec3.h"
 
 JnWindForces jn_wind_forces_2, jn_wind_forces_4, jn_wind_forces_8;
 
@@ -37,16 +38,6 @@ void jn_air_at(const JnAir* air, const double x[3], double velocity[3], double g
 	}
 }
 
-static double dot(const double a[3], const double b[3]) {
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3]) {
-	out[0] = a[1] * b[2] - a[2] * b[1];
-	out[1] = a[2] * b[0] - a[0] * b[2];
-	out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 static void edge(const double a[3], const double b[3], double out[3]) {
 	for (int i = 0; i < 3; ++i) out[i] = b[i] - a[i];
 }
@@ -56,8 +47,8 @@ static double normal_of(const double* const p[3], double n[3]) {
 	double first[3], second[3], twice[3];
 	edge(p[0], p[1], first);
 	edge(p[0], p[2], second);
-	cross(first, second, twice);
-	const double length = sqrt(dot(twice, twice));
+	vec3_cross(first, second, twice);
+	const double length = sqrt(vec3_dot(twice, twice));
 	for (int i = 0; i < 3; ++i) n[i] = length > 0 ? twice[i] / length : 0;
 	return 0.5 * length;
 }
@@ -74,13 +65,13 @@ void jn_wind_tangent(double factor, const double* const p[3], const double w[3],
 					 JnWindTangent* out) {
 	double n[3], along[3];
 	memset(out, 0, sizeof *out);
-	const double area = normal_of(p, n), s = dot(w, n);
+	const double area = normal_of(p, n), s = vec3_dot(w, n);
 	if (area == 0) return;
 	for (int i = 0; i < 3; ++i) along[i] = w[i] - s * n[i];
 	for (int j = 0; j < 3; ++j) {
 		double d[3], g[3];
 		edge(p[(j + 1) % 3], p[(j + 2) % 3], d);
-		cross(along, d, g);
+		vec3_cross(along, d, g);
 		for (int c = 0; c < 3; ++c) {
 			const double slope = gradient[c] * n[0] + gradient[3 + c] * n[1] + gradient[6 + c] * n[2];
 			g[c] = 2 * fabs(s) * (area / 3 * slope + 0.5 * g[c]);

@@ -3,6 +3,8 @@
 #include "mesh/shape/placement.h"
 #include "surface_case.h"
 
+static const JnKey placement_keys[] = {JN_PLACEMENT_KEY_ROWS(JnPlacementDef, ), {0}};
+
 static const JnPlacementDef as_it_is = {.scale = 1};
 
 static void assert_point(const double* x, double expected_x, double expected_y, double expected_z) {
@@ -98,7 +100,7 @@ static void keys_take_millimetres_and_degrees(void** state) {
 	assert_int_equal(
 		jn_document_parse("p.yaml", "up: z\nscale: 1 mm\nrotate: [0, 90 deg, 0]\nfit: 20 cm\n", &arena, &document),
 		JN_OK);
-	assert_int_equal(jn_keys_read(jn_placement_keys, document.root, "", &arena, &def), JN_OK);
+	assert_int_equal(jn_keys_read(placement_keys, document.root, "", &arena, &def), JN_OK);
 	assert_int_equal(def.up, 1);
 	assert_near("scale", def.scale, 0.001, 0);
 	assert_near("rotate", def.rotate[1], M_PI / 2, 1e-15); // one rounding of 90 * (pi / 180)

@@ -5,44 +5,7 @@
 
 #include "base/log.h"
 
-static const char* const axes[] = {"y", "z", "x", NULL};
-
-const JnKey jn_placement_keys[] = {
-	{.name = "up",
-	 .kind = JN_CHOICE,
-	 .field = offsetof(JnPlacementDef, up),
-	 .names = axes,
-	 .meaning = "axis of the file that points up, and becomes y here; applied first"},
-	{.name = "scale",
-	 .kind = JN_REAL,
-	 .field = offsetof(JnPlacementDef, scale),
-	 .value = {1},
-	 .high = INFINITY,
-	 .open = JN_OPEN_LOW | JN_OPEN_HIGH,
-	 .unit = "m",
-	 .remedy = "write 1 mm when the file is in millimetres",
-	 .meaning = "length of a unit of the file, such as 1 mm; applied second"},
-	{.name = "rotate",
-	 .kind = JN_REAL3,
-	 .field = offsetof(JnPlacementDef, rotate),
-	 .unit = "rad",
-	 .meaning = "turns about x, then y, then z, right-handed about the origin, such as [0 deg, 90 deg, 0 deg]; applied "
-				"third"},
-	{.name = "fit",
-	 .kind = JN_REAL,
-	 .field = offsetof(JnPlacementDef, fit),
-	 .high = INFINITY,
-	 .open = JN_OPEN_HIGH,
-	 .unit = "m",
-	 .meaning =
-		 "largest edge of the bounding box afterwards, scaled about the origin; 0 leaves the size; applied fourth"},
-	{.name = "translate",
-	 .kind = JN_REAL3,
-	 .field = offsetof(JnPlacementDef, translate),
-	 .unit = "m",
-	 .meaning = "displacement; applied last"},
-	{.name = NULL},
-};
+const char* const jn_placement_axes[] = {"y", "z", "x", NULL};
 
 /// axis[up][i]: where the file's axis goes that becomes x, y, z; the sign of z makes it a rotation.
 static void turn_up(int up, double x[3]) {

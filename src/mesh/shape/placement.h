@@ -14,7 +14,44 @@ typedef struct JnPlacementDef {
 	double translate[3]; ///< [m]
 } JnPlacementDef;
 
-extern const JnKey jn_placement_keys[];
+/// Rows for a table of keys; `path` is the place of a JnPlacementDef in `type`, such as
+/// `placement.` or nothing. The table's file includes <math.h>.
+#define JN_PLACEMENT_KEY_ROWS(type, path)                                                                              \
+	{.name = "up",                                                                                                     \
+	 .kind = JN_CHOICE,                                                                                                \
+	 .field = offsetof(type, path up),                                                                                 \
+	 .names = jn_placement_axes,                                                                                       \
+	 .meaning = "axis of the file that points up, and becomes y here; applied first"},                                 \
+		{.name = "scale",                                                                                              \
+		 .kind = JN_REAL,                                                                                              \
+		 .field = offsetof(type, path scale),                                                                          \
+		 .value = {1},                                                                                                 \
+		 .high = INFINITY,                                                                                             \
+		 .open = JN_OPEN_LOW | JN_OPEN_HIGH,                                                                           \
+		 .unit = "m",                                                                                                  \
+		 .remedy = "write 1 mm when the file is in millimetres",                                                       \
+		 .meaning = "length of a unit of the file, such as 1 mm; applied second"},                                     \
+		{.name = "rotate",                                                                                             \
+		 .kind = JN_REAL3,                                                                                             \
+		 .field = offsetof(type, path rotate),                                                                         \
+		 .unit = "rad",                                                                                                \
+		 .meaning =                                                                                                    \
+			 "turns about x, then y, then z, right-handed about the origin, such as [0 deg, 90 deg, 0 deg]; applied "  \
+			 "third"},                                                                                                 \
+		{.name = "fit",                                                                                                \
+		 .kind = JN_REAL,                                                                                              \
+		 .field = offsetof(type, path fit),                                                                            \
+		 .high = INFINITY,                                                                                             \
+		 .open = JN_OPEN_HIGH,                                                                                         \
+		 .unit = "m",                                                                                                  \
+		 .meaning = "largest edge of the bounding box afterwards, scaled about the origin; 0 leaves the size; "        \
+					"applied fourth"},                                                                                 \
+	{                                                                                                                  \
+		.name = "translate", .kind = JN_REAL3, .field = offsetof(type, path translate), .unit = "m",                   \
+		.meaning = "displacement; applied last"                                                                        \
+	}
+
+extern const char* const jn_placement_axes[]; ///< names of JnPlacementDef.up
 
 /// Move points[3 * count]. JN_BAD_INPUT, after a message, when all lie at one place and `fit` is asked for.
 JnStatus jn_placement_apply(const JnPlacementDef* def, const char* what, int count, double* points);

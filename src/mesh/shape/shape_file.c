@@ -12,7 +12,6 @@
 #include "mesh/fill/voxels.h"
 #include "mesh/format/import.h"
 
-static const char* const axes[] = {"y", "z", "x", NULL};
 static const char* const orders[] = {"tet4", "tet10", NULL};
 
 static const JnKey tetrahedra_keys[] = {
@@ -51,35 +50,7 @@ const JnKey jn_file_keys[] = {
 	 .required = true,
 	 .meaning =
 		 "a surface (.obj .ply .stl .off .gltf .glb), or a volume (.msh .vtk .vtu); from the scene file's folder"},
-	{.name = "up",
-	 .kind = JN_CHOICE,
-	 .field = offsetof(JnFileDef, placement.up),
-	 .names = axes,
-	 .meaning = "axis of the file that becomes y, which is up here"},
-	{.name = "scale",
-	 .kind = JN_REAL,
-	 .field = offsetof(JnFileDef, placement.scale),
-	 .value = {1},
-	 .high = 1e12,
-	 .open = JN_OPEN_LOW,
-	 .meaning = "metres that one unit of the file stands for: 0.001 for millimetres"},
-	{.name = "rotate",
-	 .kind = JN_REAL3,
-	 .field = offsetof(JnFileDef, placement.rotate),
-	 .unit = "rad",
-	 .meaning = "turns about x, then y, then z"},
-	{.name = "fit",
-	 .kind = JN_REAL,
-	 .field = offsetof(JnFileDef, placement.fit),
-	 .low = 0,
-	 .high = 1e9,
-	 .unit = "m",
-	 .meaning = "scale once more so that the longest edge of the bounding box has this length; 0: no"},
-	{.name = "translate",
-	 .kind = JN_REAL3,
-	 .field = offsetof(JnFileDef, placement.translate),
-	 .unit = "m",
-	 .meaning = "moved by this at the end"},
+	JN_PLACEMENT_KEY_ROWS(JnFileDef, placement.),
 	{.name = "tetrahedra",
 	 .kind = JN_OPTIONAL,
 	 .field = offsetof(JnFileDef, tetrahedra),
