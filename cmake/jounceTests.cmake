@@ -39,6 +39,18 @@ foreach(source IN LISTS test_sources)
 	endif()
 endforeach()
 
+# Ipopt checks the contact solvers; its test is skipped where it is not installed.
+find_path(JN_IPOPT_INCLUDE coin/IpStdCInterface.h)
+find_library(JN_IPOPT_LIBRARY ipopt)
+mark_as_advanced(JN_IPOPT_INCLUDE JN_IPOPT_LIBRARY)
+if(JN_IPOPT_INCLUDE AND JN_IPOPT_LIBRARY AND TARGET solve_qp_ipopt)
+	target_compile_definitions(solve_qp_ipopt PRIVATE JN_HAS_IPOPT)
+	target_include_directories(solve_qp_ipopt SYSTEM PRIVATE ${JN_IPOPT_INCLUDE})
+	target_link_libraries(solve_qp_ipopt PRIVATE ${JN_IPOPT_LIBRARY})
+else()
+	message(STATUS "without Ipopt: its test of contact solvers is skipped (Debian: apt-get install coinor-libipopt-dev)")
+endif()
+
 if(TARGET jounce_command)
 	add_test(NAME examples COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/examples/build_and_run
 		${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/examples_test)

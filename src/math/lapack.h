@@ -14,7 +14,7 @@ void dgetrs_(const char* trans, const int* n, const int* nrhs, const double* a, 
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info, unsigned long uplo_length);
 
 /// Solve with the factor of dpotrf_; b[n, nrhs] is overwritten.
-void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda, double* b, const int* ldb,
-			 int* info, unsigned long uplo_length);
+void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda, double* b,
+			 const int* ldb, int* info, unsigned long uplo_length);
 
 #endif

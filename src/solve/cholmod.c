@@ -27,6 +27,7 @@ typedef struct Direct {
 	cholmod_factor* symbolic;
 	cholmod_factor* factors[JN_SOLVER_SLOTS];
 	cholmod_dense *rhs, *solution, *work1, *work2;
+	cholmod_dense *many_rhs, *many_solution, *many_work1, *many_work2; // of solve_many, for its last count
 	float* single[JN_SOLVER_SLOTS]; // the factors once more, in single precision, then their inverse diagonals
 	size_t* single_panel;           // where panels begin, and the size of all
 	float *single_x, *single_work;  // a vector, and a panel's rows
@@ -66,6 +67,10 @@ static void destroy(JnSolver* solver) {
 	cholmod_free_dense(&direct->solution, common);
 	cholmod_free_dense(&direct->work1, common);
 	cholmod_free_dense(&direct->work2, common);
+	cholmod_free_dense(&direct->many_rhs, common);
+	cholmod_free_dense(&direct->many_solution, common);
+	cholmod_free_dense(&direct->many_work1, common);
+	cholmod_free_dense(&direct->many_work2, common);
 	cholmod_finish(common);
 	free(direct->free_index);
 	free(direct->position);
@@ -389,6 +394,30 @@ static JnStatus solve(JnSolver* solver, int slot, const double* rhs, double* out
 	return JN_OK;
 }
 
+static JnStatus solve_many(JnSolver* solver, int slot, int count, const double* rhs, double* out) {
+	Direct* direct = (Direct*)solver;
+	cholmod_common* common = &direct->common;
+	const size_t entries = 3 * (size_t)direct->pattern->nodes, n = direct->matrix->nrow;
+	if (direct->many_rhs != NULL && direct->many_rhs->ncol != (size_t)count)
+		cholmod_free_dense(&direct->many_rhs, common);
+	if (direct->many_rhs == NULL) direct->many_rhs = cholmod_zeros(n, (size_t)count, CHOLMOD_REAL, common);
+	if (direct->many_rhs == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: %d right-hand sides", count);
+	double* b = direct->many_rhs->x;
+	for (size_t j = 0; j < (size_t)count; ++j)
+		for (size_t k = 0; k < entries; ++k)
+			if (direct->position[k] >= 0) b[j * n + (size_t)direct->position[k]] = rhs[j * entries + k];
+	const Quiet quiet = quiet_begin();
+	const int worked = cholmod_solve2(CHOLMOD_A, direct->factors[slot], direct->many_rhs, NULL, &direct->many_solution,
+									  NULL, &direct->many_work1, &direct->many_work2, common);
+	quiet_end(quiet);
+	if (!worked) return jn_error(JN_OUT_OF_MEMORY, "the sparse solve failed (CHOLMOD status %d)", common->status);
+	const double* x = direct->many_solution->x;
+	for (size_t j = 0; j < (size_t)count; ++j)
+		for (size_t k = 0; k < entries; ++k)
+			out[j * entries + k] = direct->position[k] >= 0 ? x[j * n + (size_t)direct->position[k]] : 0;
+	return JN_OK;
+}
+
 static JnStatus approximate(JnSolver* solver, int slot, const double* rhs, double* out) {
 	Direct* direct = (Direct*)solver;
 	if (direct->single_solve == NULL) return solve(solver, slot, rhs, out);
@@ -439,6 +468,7 @@ const JnSolverType jn_solver_direct = {
 	.destroy = destroy,
 	.factor = factor,
 	.solve = solve,
+	.solve_many = solve_many,
 	.approximate = approximate,
 	.cost = cost,
 };

@@ -25,6 +25,8 @@ typedef struct JnSolverType {
 	JnStatus (*factor)(JnSolver*, int slot, const double* blocks);
 	/// out = A^-1 rhs with the factor of `slot`; held entries of out are 0. Vectors of 3 * nodes; out may be rhs.
 	JnStatus (*solve)(JnSolver*, int slot, const double* rhs, double* out);
+	/// The same for `count` vectors, one behind the other; out may be rhs. NULL: call solve for each.
+	JnStatus (*solve_many)(JnSolver*, int slot, int count, const double* rhs, double* out);
 	/// Like solve, to about six digits, from a factor in single precision where options allow it.
 	JnStatus (*approximate)(JnSolver*, int slot, const double* rhs, double* out);
 	JnSolverCost (*cost)(const JnSolver*);
