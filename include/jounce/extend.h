@@ -165,8 +165,9 @@ struct JnSystem {
 	bool mass_is_diagonal;  ///< M^-1 is a division
 	bool depends_on_time;   ///< forces or held nodes change with t at fixed x and v
 	bool is_linear_in_step; ///< forces are linear in x and v between two begin()s
-	bool has_potential;     ///< f = -(gradient of energy) - D v at any fixed t, D symmetric and constant between two begin()s
-	JnReport* report;       ///< where the system counts its work; set by whoever steps it, never NULL during a step
+	bool
+		has_potential; ///< f = -(gradient of energy) - D v at any fixed t, D symmetric and constant between two begin()s
+	JnReport* report;  ///< where the system counts its work; set by whoever steps it, never NULL during a step
 };
 
 /// Most unknowns of a system made of callbacks: its matrices are dense.
@@ -236,7 +237,8 @@ typedef struct JnNewtonDef {
 	double tolerance;   ///< residual norm relative to the system's force scale
 	int max_iterations; ///< a stage
 	int reuse;          ///< 0 auto: keep K and its factor while they serve; 1 never
-	int guess; ///< first guess of a stage: 0 zero; 1 the last acceleration found; 2 the line through the last two
+	int guess; ///< first guess of a stage: 0 zero; 1 the last acceleration found; 2 the line through the last two; 3
+			   ///< whichever of them was nearest of late
 } JnNewtonDef;
 
 struct JnIntegrator {
@@ -244,14 +246,15 @@ struct JnIntegrator {
 	const void* options; ///< struct of type->row.keys, or NULL
 	JnNewtonDef newton;
 	JnSpace* space;
-	JnVec* vectors;      ///< type->vectors of the method, behind them those of the stage solver
-	void* memory;        ///< history of multistep methods
-	uint64_t linearized; ///< stamp at which the kept K was made; 0: none
-	uint64_t step_stamp; ///< stamp of the start of the present step
-	int base_iterations; ///< of the first stage that the kept factor served; judges when it has become too old
-	double excess;       ///< iterations above base_iterations since then
-	int recent_count;    ///< accelerations kept for first guesses: 0, 1 or 2
-	double recent_t[2];  ///< their times [s], the latest first
+	JnVec* vectors;        ///< type->vectors of the method, behind them those of the stage solver
+	void* memory;          ///< history of multistep methods
+	uint64_t linearized;   ///< stamp at which the kept K was made; 0: none
+	uint64_t step_stamp;   ///< stamp of the start of the present step
+	int base_iterations;   ///< of the first stage that the kept factor served; judges when it has become too old
+	double excess;         ///< iterations above base_iterations since then
+	int recent_count;      ///< accelerations kept for first guesses: 0, 1 or 2
+	double recent_t[2];    ///< their times [s], the latest first
+	double guess_error[3]; ///< how far guesses 0 to 2 were from the solutions of late [m/s^2]; 0: not known
 };
 
 /// Find a with  M a = w f(t, x + kx a, v + kv a) + load:  the only nonlinear problem that implicit methods have.

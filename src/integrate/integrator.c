@@ -61,6 +61,7 @@ void jn_integrator_destroy(JnIntegrator* self) {
 void jn_integrator_forget(JnIntegrator* self) {
 	self->linearized = 0;
 	self->recent_count = 0;
+	memset(self->guess_error, 0, sizeof self->guess_error);
 }
 
 void jn_integrator_reset(JnIntegrator* self) {
@@ -92,7 +93,7 @@ JnStatus jn_state_check(JnSpace* space, const JnState* s) {
 
 static const char* const modes[] = {"root", "linear", "minimize", "auto", NULL};
 static const char* const reuses[] = {"auto", "never", NULL};
-static const char* const guesses[] = {"zero", "last", "linear", NULL};
+static const char* const guesses[] = {"zero", "last", "linear", "auto", NULL};
 
 const JnKey jn_newton_keys[] = {
 	{.name = "mode",
@@ -100,8 +101,9 @@ const JnKey jn_newton_keys[] = {
 	 .field = offsetof(JnNewtonDef, mode),
 	 .names = modes,
 	 .value = {3},
-	 .meaning = "root: Newton on the residual with a line search; linear: one Newton step from zero acceleration; minimize: "
-				"Newton on the energy of the step, for hard states; auto: root, and minimize where that stalls"},
+	 .meaning =
+		 "root: Newton on the residual with a line search; linear: one Newton step from zero acceleration; minimize: "
+		 "Newton on the energy of the step, for hard states; auto: root, and minimize where that stalls"},
 	{.name = "tolerance",
 	 .kind = JN_REAL,
 	 .field = offsetof(JnNewtonDef, tolerance),
@@ -116,8 +118,9 @@ const JnKey jn_newton_keys[] = {
 	 .value = {200},
 	 .low = 1,
 	 .high = 10000,
-	 .meaning = "iterations a stage; as many once more before the step counts as failed: by minimize in mode auto, from "
-				"zero with a tangent each in mode root"},
+	 .meaning =
+		 "iterations a stage; as many once more before the step counts as failed: by minimize in mode auto, from "
+		 "zero with a tangent each in mode root"},
 	{.name = "reuse",
 	 .kind = JN_CHOICE,
 	 .field = offsetof(JnNewtonDef, reuse),
@@ -127,7 +130,8 @@ const JnKey jn_newton_keys[] = {
 	 .kind = JN_CHOICE,
 	 .field = offsetof(JnNewtonDef, guess),
 	 .names = guesses,
-	 .value = {2},
-	 .meaning = "first guess of a stage's acceleration: zero, the last one found, or the line through the last two"},
+	 .value = {3},
+	 .meaning = "first guess of a stage's acceleration: zero, the last one found, the line through the last two, or "
+				"whichever of these was nearest of late"},
 	{0},
 };

@@ -172,25 +172,56 @@ JnStatus jn_stage_loop(JnStageSolver* stage, JnStageIterate* iterate) {
 	return JN_NOT_CONVERGED;
 }
 
-static void first_guess(JnStageSolver* stage) {
+// Accelerations to continue exist from the second or third stage on, and the line reaches only so far.
+static bool has_guess(const JnStageSolver* stage, int guess) {
+	const JnIntegrator* self = stage->self;
+	const double span = self->recent_t[0] - self->recent_t[1], ahead = stage->problem->t - self->recent_t[0];
+	if (guess == JN_GUESS_LINEAR) return self->recent_count == 2 && span != 0 && fabs(ahead) <= 4 * fabs(span);
+	return guess == JN_GUESS_ZERO || self->recent_count > 0;
+}
+
+static void make_guess(JnStageSolver* stage, int guess, JnVec out) {
 	const JnIntegrator* self = stage->self;
 	JnSpace* space = space_of(stage);
 	JnVec* recent = stage->work + JN_STAGE_RECENT;
-	const bool use_guess =
-		self->newton.mode != JN_MODE_LINEAR && self->newton.guess != JN_GUESS_ZERO && self->recent_count > 0;
-	const double span = self->recent_t[0] - self->recent_t[1];
-	const double ahead = stage->problem->t - self->recent_t[0];
-	if (!use_guess) {
-		space->ops->combine(space, stage->a, 0, NULL);
-	} else if (self->newton.guess == JN_GUESS_LINEAR && self->recent_count == 2 && fabs(ahead) <= 4 * fabs(span)) {
-		const double share = ahead / span;
-		space->ops->combine(space, stage->a, 2, (JnTerm[]){{1 + share, recent[0]}, {-share, recent[1]}});
-	} else {
-		space->ops->combine(space, stage->a, 1, (JnTerm[]){{1, recent[0]}});
-	}
+	const double share = (stage->problem->t - self->recent_t[0]) / (self->recent_t[0] - self->recent_t[1]);
+	const double parts[2] = {guess == JN_GUESS_LINEAR ? 1 + share : 1, -share};
+	const int counts[] = {[JN_GUESS_ZERO] = 0, [JN_GUESS_LAST] = 1, [JN_GUESS_LINEAR] = 2};
+	space->ops->combine(space, out, counts[guess], (JnTerm[]){{parts[0], recent[0]}, {parts[1], recent[1]}});
 	if (stage->problem->held == NULL) return;
-	stage->sys->ops->hold(stage->sys, stage->a);
-	space->ops->combine(space, stage->a, 2, (JnTerm[]){{1, stage->a}, {1, stage->problem->held}});
+	stage->sys->ops->hold(stage->sys, out);
+	space->ops->combine(space, out, 2, (JnTerm[]){{1, out}, {1, stage->problem->held}});
+}
+
+static int choose_guess(const JnStageSolver* stage) {
+	const JnIntegrator* self = stage->self;
+	if (self->newton.mode == JN_MODE_LINEAR) return JN_GUESS_ZERO;
+	const bool chooses = self->newton.guess == JN_GUESS_AUTO;
+	int chosen = chooses ? JN_GUESS_LINEAR : self->newton.guess;
+	while (!has_guess(stage, chosen)) --chosen;
+	for (int guess = chosen - 1; chooses && guess >= JN_GUESS_ZERO; --guess)
+		if (self->guess_error[guess] < self->guess_error[chosen]) chosen = guess;
+	return chosen;
+}
+
+// What each guess would have been worth, as a mean that forgets: smooth motion is continued best by a line, while after
+// a jolt the accelerations of before are worse than none.
+static void judge_guesses(JnStageSolver* stage) {
+	JnSpace* space = space_of(stage);
+	double* errors = stage->self->guess_error;
+	if (stage->self->newton.guess != JN_GUESS_AUTO) return;
+	for (int guess = JN_GUESS_ZERO; guess <= JN_GUESS_LINEAR; ++guess) {
+		if (!has_guess(stage, guess)) continue;
+		make_guess(stage, guess, stage->step);
+		space->ops->combine(space, stage->step, 2, (JnTerm[]){{1, stage->a}, {-1, stage->step}});
+		stage->sys->ops->hold(stage->sys, stage->step);
+		const double error = sqrt(space->ops->dot(space, stage->step, stage->step));
+		errors[guess] = errors[guess] > 0 ? 0.5 * (errors[guess] + error) : error;
+	}
+}
+
+static void first_guess(JnStageSolver* stage) {
+	make_guess(stage, choose_guess(stage), stage->a);
 }
 
 // From zero acceleration, whatever was known before.
@@ -281,6 +312,7 @@ JnStatus jn_stage_solve(JnIntegrator* self, JnSystem* sys, const JnStage* proble
 	stage.tolerance = fmax(self->newton.tolerance * scale, sys->force_floor);
 	stage.is_careful = self->newton.reuse == JN_REUSE_NEVER;
 	JN_TRY(solve(&stage));
+	judge_guesses(&stage);
 	keep_solution(&stage);
 	report->residual = scale > 0 ? stage.norm / scale : 0;
 	return JN_OK;
