@@ -165,9 +165,8 @@ struct JnSystem {
 	bool mass_is_diagonal;  ///< M^-1 is a division
 	bool depends_on_time;   ///< forces or held nodes change with t at fixed x and v
 	bool is_linear_in_step; ///< forces are linear in x and v between two begin()s
-	bool
-		has_potential; ///< f = -(gradient of energy) - D v at any fixed t, D symmetric and constant between two begin()s
-	JnReport* report;  ///< where the system counts its work; set by whoever steps it, never NULL during a step
+	bool has_potential;     ///< f = -(gradient of energy) - D v at a fixed t, D symmetric and constant over a step
+	JnReport* report;       ///< where the system counts its work; set by whoever steps it, never NULL during a step
 };
 
 /// Most unknowns of a system made of callbacks: its matrices are dense.
