@@ -9,11 +9,11 @@
 #include "jounce/jounce.h"
 
 typedef struct Magnet {
-	JnSystem base;      // what the integrator sees
-	JnSystem* model;    // what it wraps
-	int node;           // the node that is pulled
-	double at[3];       // towards this point [m]
-	double stiffness;   // [N/m]
+	JnSystem base;    // what the integrator sees
+	JnSystem* model;  // what it wraps
+	int node;         // the node that is pulled
+	double at[3];     // towards this point [m]
+	double stiffness; // [N/m]
 } Magnet;
 
 // The wrapper's public fields follow those of the model, and the model counts its work where the wrapper does.
@@ -74,10 +74,10 @@ static JnStatus simulate(JnModel* model) {
 	static const JnSystemOps ops = {begin, prescribe, hold, force, energy, linearize, matrix, max_step};
 	const double middle[3] = {0.125, 0.125, 1};
 	Magnet magnet = {.base = *jn_model_system(model),
-	                 .model = jn_model_system(model),
-	                 .node = jn_model_nearest(model, middle),
-	                 .at = {0.625, 0.125, 1},
-	                 .stiffness = 500};
+					 .model = jn_model_system(model),
+					 .node = jn_model_nearest(model, middle),
+					 .at = {0.625, 0.125, 1},
+					 .stiffness = 500};
 	magnet.base.ops = &ops;
 	JnSim* sim = NULL;
 	JnState start;

@@ -41,7 +41,7 @@ static double potential(void* user, double t, const double* x) {
 
 static double energy(Pendulum* p, const JnState* s) {
 	const double kinetic = 0.5 * p->mass[0] * (s->v[0] * s->v[0] + s->v[1] * s->v[1]) +
-	                       0.5 * p->mass[1] * (s->v[2] * s->v[2] + s->v[3] * s->v[3]);
+						   0.5 * p->mass[1] * (s->v[2] * s->v[2] + s->v[3] * s->v[3]);
 	return kinetic + potential(p, s->t, s->x);
 }
 
@@ -61,7 +61,7 @@ int main(void) {
 	if (status == JN_OK) {
 		const JnState* s = jn_sim_state(sim);
 		printf("t = %g s: points at (%.4f, %.4f) and (%.4f, %.4f) m, energy %.9f J, changed by %.2e J\n", s->t, s->x[0],
-		       s->x[1], s->x[2], s->x[3], energy(&pendulum, s), energy(&pendulum, s) - start);
+			   s->x[1], s->x[2], s->x[3], energy(&pendulum, s), energy(&pendulum, s) - start);
 	}
 	jn_sim_destroy(sim);
 	jn_user_system_destroy(sys);

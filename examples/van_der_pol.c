@@ -32,7 +32,7 @@ static JnStatus run(JnSystem* sys, const char* method) {
 	while (status == JN_OK && !jn_sim_is_done(sim)) status = jn_sim_step(sim);
 	if (status == JN_OK)
 		printf("%-16s x(%g) = %.6f after %ld steps\n", method, jn_sim_state(sim)->t, jn_sim_state(sim)->x[0],
-		       jn_sim_steps(sim));
+			   jn_sim_steps(sim));
 	jn_sim_destroy(sim);
 	return status;
 }

@@ -173,8 +173,9 @@ const JnKey jn_wind_keys[] = {
 	 .kind = JN_CHOICE,
 	 .field = offsetof(JnWindDef, tangent),
 	 .names = wind_tangents,
-	 .meaning = "derivatives of the wind's force in Newton's matrix: none (the matrix stays symmetric), or exact (LU in "
-				"place of Cholesky), which Rosenbrock methods need for their order"},
+	 .meaning =
+		 "derivatives of the wind's force in Newton's matrix: none (the matrix stays symmetric), or exact (LU in "
+		 "place of Cholesky), which Rosenbrock methods need for their order"},
 	{0},
 };
 
