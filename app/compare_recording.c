@@ -1,14 +1,12 @@
-// Reads only what a comparison needs: ends, times and probes. The layout of run.h5 is told in src/record/hdf5.c.
+// Reads only what a comparison needs: ends, times and probes.
 #include "compare_recording.h"
 
-#include <hdf5.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/log.h"
-#include "record/text_file.h"
+#include "recording_file.h"
 
 // A newline inside a text is escaped, so that an entry is found at the start of its line and nowhere else.
 static const char* find_entry(const char* summary, const char* name) {
@@ -32,37 +30,21 @@ bool compare_summary_is_done(const char* summary) {
 
 // A dataset of doubles; `*count` is the number of its entries.
 static JnStatus read_array(hid_t file, JnArena* arena, const char* name, double** data, hssize_t* count) {
-	const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
-	if (dataset < 0) return JN_IO_FAILED;
-	const hid_t space = H5Dget_space(dataset);
-	*count = H5Sget_simple_extent_npoints(space);
-	H5Sclose(space);
-	herr_t outcome = *count < 0 ? -1 : 0;
-	if (outcome == 0) *data = jn_arena_take(arena, (size_t)*count + 1, sizeof **data);
-	if (outcome == 0 && *data != NULL)
-		outcome = H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, *data);
-	H5Dclose(dataset);
-	if (outcome < 0) return JN_IO_FAILED;
-	return *data != NULL ? JN_OK : JN_OUT_OF_MEMORY;
-}
-
-static JnStatus read_attribute(hid_t file, const char* object, const char* name, hid_t type, void* value) {
-	const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT);
-	if (attribute < 0) return JN_IO_FAILED;
-	const herr_t outcome = H5Aread(attribute, type, value);
-	H5Aclose(attribute);
-	return outcome < 0 ? JN_IO_FAILED : JN_OK;
+	*count = recording_file_measure(file, name);
+	if (*count < 0) return JN_IO_FAILED;
+	JN_NEW(arena, *data, *count + 1);
+	return recording_file_array(file, name, H5T_NATIVE_DOUBLE, *count, *data);
 }
 
 static JnStatus read_last_frame(hid_t file, CompareRecording* recording) {
 	int frames = 0;
 	char group[64], position[80], velocity[80];
 	hssize_t rest = 0, x = 0, v = 0;
-	JN_TRY(read_attribute(file, "/frames", "count", H5T_NATIVE_INT, &frames));
+	JN_TRY(recording_file_attribute(file, "/frames", "count", H5T_NATIVE_INT, &frames));
 	snprintf(group, sizeof group, "/frames/%08d", frames - 1);
 	snprintf(position, sizeof position, "%s/position", group);
 	snprintf(velocity, sizeof velocity, "%s/velocity", group);
-	JN_TRY(read_attribute(file, group, "time", H5T_NATIVE_DOUBLE, &recording->t));
+	JN_TRY(recording_file_attribute(file, group, "time", H5T_NATIVE_DOUBLE, &recording->t));
 	JN_TRY(read_array(file, &recording->arena, "/mesh/nodes", &recording->rest, &rest));
 	JN_TRY(read_array(file, &recording->arena, position, &recording->x, &x));
 	JN_TRY(read_array(file, &recording->arena, velocity, &recording->v, &v));
@@ -106,27 +88,17 @@ static JnStatus read_series(hid_t file, CompareRecording* recording) {
 	return JN_OK;
 }
 
-static JnStatus read_file(const char* path, CompareRecording* recording) {
-	const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-	if (file < 0) return JN_IO_FAILED;
-	JnStatus status = read_last_frame(file, recording);
-	if (status == JN_OK) status = read_series(file, recording);
-	H5Fclose(file);
-	return status;
+static JnStatus read_file(hid_t file, void* user) {
+	JN_TRY(read_last_frame(file, user));
+	return read_series(file, user);
 }
 
 JnStatus compare_recording_open(const char* folder, CompareRecording* recording) {
-	char path[JN_PATH_SIZE];
-	H5E_auto2_t printer = NULL;
-	void* printer_data = NULL;
+	hid_t file = -1;
 	*recording = (CompareRecording){0};
-	JN_TRY(jn_path_join(folder, "run.h5", path));
-	H5Eget_auto2(H5E_DEFAULT, &printer, &printer_data);
-	H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // the words are ours
-	const JnStatus status = read_file(path, recording);
-	H5Eset_auto2(H5E_DEFAULT, printer, printer_data);
-	if (status != JN_IO_FAILED) return status;
-	return jn_error(status, "%s: is no whole recording of a run; remove its folder to run it again", path);
+	const JnStatus status = recording_file_open(folder, read_file, recording, &file);
+	recording_file_close(&file);
+	return status;
 }
 
 void compare_recording_close(CompareRecording* recording) {

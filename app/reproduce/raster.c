@@ -26,11 +26,6 @@ typedef struct Canvas {
 	float* colour; // 3 a pixel
 } Canvas;
 
-static void normalise(double a[3]) {
-	const double length = sqrt(vec3_dot(a, a));
-	for (int i = 0; i < 3; ++i) a[i] = length > 0 ? a[i] / length : 0;
-}
-
 static void to_axes(const View* view, const double p[3], double out[3]) {
 	out[0] = vec3_dot(p, view->right);
 	out[1] = vec3_dot(p, view->up);
@@ -60,7 +55,7 @@ View raster_view(const Picture* picture) {
 				 .height = FINER * picture->height};
 	double low[3], high[3];
 	vec3_cross(world_up, view.back, view.right);
-	normalise(view.right);
+	vec3_normalize(view.right);
 	vec3_cross(view.back, view.right, view.up);
 	bound(picture, &view, low, high);
 	const double wide = fmax(high[0] - low[0], 1e-9), tall = fmax(high[1] - low[1], 1e-9);
@@ -100,20 +95,20 @@ static void add_normals(const Panel* panel, double* normals) {
 		for (int c = 0; c < 9; ++c)
 			normals[3 * (size_t)panel->triangles[3 * i + c / 3] + (size_t)(c % 3)] += normal[c % 3];
 	}
-	for (int i = 0; i < panel->point_count; ++i) normalise(normals + 3 * (size_t)i);
+	for (int i = 0; i < panel->point_count; ++i) vec3_normalize(normals + 3 * (size_t)i);
 }
 
 // ---- light ----
 
 static void shade(const double raw[3], int body, float out[3]) {
 	double normal[3] = {raw[0], raw[1], raw[2]};
-	normalise(normal);
+	vec3_normalize(normal);
 	const double side = normal[2] < 0 ? -1 : 1; // sheets have two sides, and inverted elements show their inside
 	double diffuse = 0.26, gloss = 0;
 	for (int i = 0; i < 3; ++i) normal[i] *= side;
 	for (int l = 0; l < 2; ++l) {
 		double half[3] = {lights[l][0], lights[l][1], lights[l][2] + 1};
-		normalise(half);
+		vec3_normalize(half);
 		diffuse += lights[l][3] * fmax(vec3_dot(normal, lights[l]), 0);
 		gloss += 0.35 * lights[l][3] * pow(fmax(vec3_dot(normal, half), 0), 40);
 	}
@@ -154,7 +149,7 @@ static void draw_triangle(Canvas* canvas, const Panel* panel, const View* view, 
 	Corner corners[3];
 	double own[3];
 	face_normal(panel, triangle, own);
-	normalise(own);
+	vec3_normalize(own);
 	for (int i = 0; i < 3; ++i) {
 		const size_t node = (size_t)panel->triangles[3 * triangle + i];
 		project(view, panel->points + 3 * node, &corners[i]);

@@ -1,0 +1,53 @@
+#include "recording_file.h"
+
+#include "base/log.h"
+#include "record/text_file.h"
+
+JnStatus recording_file_open(const char* folder, RecordingRead* read, void* user, hid_t* file) {
+	char path[JN_PATH_SIZE];
+	H5E_auto2_t printer = NULL;
+	void* printer_data = NULL;
+	*file = -1;
+	JN_TRY(jn_path_join(folder, "run.h5", path));
+	H5Eget_auto2(H5E_DEFAULT, &printer, &printer_data);
+	H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // the words are ours
+	*file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+	const JnStatus status = *file < 0 ? JN_IO_FAILED : read(*file, user);
+	H5Eset_auto2(H5E_DEFAULT, printer, printer_data);
+	if (status != JN_IO_FAILED) return status;
+	return jn_error(status, "%s: is no whole recording of a run; remove its folder to run it again", path);
+}
+
+void recording_file_close(hid_t* file) {
+	if (*file >= 0) H5Fclose(*file);
+	*file = -1;
+}
+
+JnStatus recording_file_attribute(hid_t file, const char* object, const char* name, hid_t type, void* value) {
+	const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT);
+	if (attribute < 0) return JN_IO_FAILED;
+	const herr_t outcome = H5Aread(attribute, type, value);
+	H5Aclose(attribute);
+	return outcome < 0 ? JN_IO_FAILED : JN_OK;
+}
+
+hssize_t recording_file_measure(hid_t file, const char* name) {
+	const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+	if (dataset < 0) return -1;
+	const hid_t space = H5Dget_space(dataset);
+	const hssize_t count = H5Sget_simple_extent_npoints(space);
+	H5Sclose(space);
+	H5Dclose(dataset);
+	return count;
+}
+
+JnStatus recording_file_array(hid_t file, const char* name, hid_t type, hssize_t count, void* data) {
+	const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
+	if (dataset < 0) return JN_IO_FAILED;
+	const hid_t space = H5Dget_space(dataset);
+	const bool fits = H5Sget_simple_extent_npoints(space) == count;
+	const herr_t outcome = fits ? H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) : -1;
+	H5Sclose(space);
+	H5Dclose(dataset);
+	return outcome < 0 ? JN_IO_FAILED : JN_OK;
+}
