@@ -12,6 +12,7 @@
 
 #include "base/log.h"
 #include "solve/blas.h"
+#include "solve/cholmod_half.h"
 #include "solve/single.h"
 #include "solve/solver.h"
 
@@ -436,6 +437,11 @@ static JnStatus approximate(JnSolver* solver, int slot, const double* rhs, doubl
 	return JN_OK;
 }
 
+static JnStatus half(JnSolver* solver, int slot, const JnColumns* columns, JnHalf* out) {
+	const Direct* direct = (const Direct*)solver;
+	return jn_cholmod_half(direct->factors[slot], direct->position, columns, out);
+}
+
 static JnSolverCost cost(const JnSolver* solver) {
 	return ((const Direct*)solver)->cost;
 }
@@ -469,6 +475,7 @@ const JnSolverType jn_solver_direct = {
 	.factor = factor,
 	.solve = solve,
 	.solve_many = solve_many,
+	.half = half,
 	.approximate = approximate,
 	.cost = cost,
 };

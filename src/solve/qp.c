@@ -45,7 +45,8 @@ static bool is_finite_input(const JnContactProblem* problem, const double* lambd
 	const size_t count = (size_t)problem->count;
 	for (size_t i = 0; i < count; ++i) {
 		const bool has_friction = problem->friction != NULL && problem->friction[i] != 0;
-		if (!are_finite(problem->frame[i], has_friction ? 9 : 3) || !isfinite(problem->bound[i])) return false;
+		if (!are_finite(problem->frame[i], has_friction ? 9 : 3)) return false;
+		if (!are_finite(problem->bound[i], has_friction ? 3 : 1)) return false;
 		if (has_friction && !isfinite(problem->friction[i])) return false;
 		double u[3];
 		jn_contact_velocity(problem, (int)i, problem->vp, u);
@@ -66,18 +67,6 @@ static bool is_free(const JnQpRows* rows) {
 	return true;
 }
 
-static int body_of(const JnContactProblem* problem, int node) {
-	int low = 0, high = problem->body_count - 1;
-	while (low < high) {
-		const int middle = low + (high - low + 1) / 2;
-		if (problem->first_node[middle] <= node)
-			low = middle;
-		else
-			high = middle - 1;
-	}
-	return low;
-}
-
 static bool is_pushed(const double* lambda) {
 	return lambda[0] != 0 || lambda[1] != 0 || lambda[2] != 0;
 }
@@ -90,7 +79,7 @@ static JnStatus mark_bodies(JnQp* qp, const double* lambda) {
 	memset(qp->marks.at, 0, bodies * sizeof *qp->marks.at);
 	for (int i = 0; i < problem->count; ++i)
 		for (int k = problem->start[i]; is_pushed(lambda + 3 * (size_t)i) && k < problem->start[i + 1]; ++k)
-			qp->marks.at[problem->body_count > 0 ? body_of(problem, problem->node[k]) : 0] = 1;
+			qp->marks.at[jn_qp_body_of(problem, problem->node[k])] = 1;
 	return JN_OK;
 }
 

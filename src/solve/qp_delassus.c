@@ -1,129 +1,129 @@
 #include "solve/qp_delassus.h"
 
+#include <math.h>
 #include <string.h>
 
-#include "base/log.h"
-
-enum { BATCH = 32 }; // right-hand sides at once: enough for matrix products within the factor, small beside it
+#include "solve/qp_cone.h"
 
 JnStatus jn_delassus_begin(JnDelassus* d) {
-	const int contacts = d->base.rows.contacts;
-	JN_TRY(jn_indices_reserve(&d->indices, 2 * (size_t)contacts));
-	JN_TRY(jn_numbers_reserve(&d->batch, 2 * BATCH * 3 * (size_t)d->base.problem->nodes));
-	d->working = d->indices.at;
-	d->column_of = d->working + contacts;
-	d->working_count = d->columns = 0;
-	for (int i = 0; i < contacts; ++i) d->column_of[i] = -1;
-	return JN_OK;
+	const size_t contacts = (size_t)d->base.rows.contacts, rows = (size_t)d->base.rows.count;
+	JN_TRY(jn_indices_reserve(&d->slot_indices, 6 * contacts + 2));
+	JN_TRY(jn_numbers_reserve(&d->slot_numbers, contacts + 4 * rows));
+	d->working = d->slot_indices.at;
+	d->is_working = d->working + contacts;
+	d->start = d->is_working + contacts;
+	d->touch_start = d->start + contacts + 1;
+	d->group_of = d->touch_start + contacts + 1;
+	d->met = d->group_of + contacts;
+	d->mu = d->slot_numbers.at;
+	d->before = d->mu + contacts;
+	d->lambda = d->before + rows;
+	d->after = d->lambda + rows;
+	d->diagonal = d->after + rows;
+	d->working_count = d->slots = d->start[0] = d->touch_start[0] = 0;
+	memset(d->is_working, 0, contacts * sizeof *d->is_working);
+	return jn_delassus_begin_matrix(d);
 }
 
-static JnStatus reserve_columns(JnDelassus* d, int columns) {
-	const size_t count = (size_t)d->base.rows.count * (size_t)columns;
-	if (count <= d->capacity) return JN_OK;
-	const size_t capacity = count + count / 2;
-	double* grown = realloc(d->at, capacity * sizeof *grown);
-	if (grown == NULL)
-		return jn_error(JN_OUT_OF_MEMORY, "out of memory: the Delassus matrix of %d rows", d->base.rows.count);
-	d->at = grown;
-	d->capacity = capacity;
-	return JN_OK;
+static void write_lambda(JnDelassus* d) {
+	for (int k = 0; k < d->working_count; ++k)
+		memcpy(d->base.rows.lambda + d->base.rows.first[d->working[k]], d->lambda + d->start[k],
+			   (size_t)(d->start[k + 1] - d->start[k]) * sizeof *d->lambda);
 }
 
-static JnStatus solve_batch(JnDelassus* d, int count, const double* rhs, double* out) {
-	const JnContactMatrix* matrix = &d->base.problem->matrix;
-	const size_t entries = 3 * (size_t)d->base.problem->nodes;
-	d->base.report.solves += count;
-	if (matrix->solve_many != NULL) return matrix->solve_many(matrix->user, count, rhs, out);
-	for (size_t k = 0; k < (size_t)count; ++k)
-		JN_TRY(matrix->solve(matrix->user, rhs + k * entries, out + k * entries));
-	return JN_OK;
-}
-
-// The columns first .. last - 1, which belong to the working contacts from `contact` on.
-static JnStatus fill_columns(JnDelassus* d, int contact, int first, int last) {
-	const JnQpRows* rows = &d->base.rows;
-	const size_t entries = 3 * (size_t)d->base.problem->nodes;
-	double *rhs = d->batch.at, *out = rhs + BATCH * entries;
-	int axis = 0;
-	while (first < last) {
-		const int count = last - first < BATCH ? last - first : BATCH;
-		memset(rhs, 0, (size_t)count * entries * sizeof *rhs);
-		for (int k = 0; k < count; ++k) {
-			const int i = d->working[contact];
-			jn_qp_row_add(&d->base, i, axis, rhs + (size_t)k * entries);
-			if (++axis < rows->first[i + 1] - rows->first[i]) continue;
-			axis = 0;
-			++contact;
-		}
-		JN_TRY(solve_batch(d, count, rhs, out));
-		for (int k = 0; k < count; ++k)
-			jn_qp_rows_apply(&d->base, out + (size_t)k * entries, d->at + (size_t)(first + k) * (size_t)rows->count);
-		first += count;
+// rows.after of all rows, those that have no slots included: through the velocities of the bodies, one solve.
+static JnStatus find_velocities(JnDelassus* d) {
+	JnQp* qp = &d->base;
+	JnQpRows* rows = &qp->rows;
+	const JnContactMatrix* matrix = &qp->problem->matrix;
+	write_lambda(d);
+	memset(rows->after, 0, (size_t)rows->count * sizeof *rows->after);
+	if (jn_qp_rows_press(rows)) {
+		jn_qp_rows_transpose(qp, rows->lambda, qp->rhs);
+		JN_TRY(matrix->solve(matrix->user, qp->rhs, qp->change));
+		jn_qp_rows_apply(qp, qp->change, rows->after);
+		++qp->report.solves;
 	}
+	for (int row = 0; row < rows->count; ++row) rows->after[row] += rows->before[row];
 	return JN_OK;
 }
 
-static bool needs_columns(const JnDelassus* d, int i, double slack) {
+static void add_working(JnDelassus* d, int contact) {
 	const JnQpRows* rows = &d->base.rows;
-	const int row = rows->first[i];
-	return d->column_of[i] < 0 && rows->first[i + 1] > row && (rows->lambda[row] > 0 || rows->after[row] < -slack);
+	const int first = rows->first[contact], count = rows->first[contact + 1] - first;
+	const size_t bytes = (size_t)count * sizeof(double);
+	memcpy(d->before + d->slots, rows->before + first, bytes);
+	memcpy(d->lambda + d->slots, rows->lambda + first, bytes);
+	memcpy(d->after + d->slots, rows->after + first, bytes);
+	d->mu[d->working_count] = count == 3 ? rows->mu[contact] : 0;
+	d->is_working[contact] = 1;
+	d->working[d->working_count++] = contact;
+	d->start[d->working_count] = d->slots += count;
 }
 
 JnStatus jn_delassus_extend(JnDelassus* d, double slack, int* added) {
 	const JnQpRows* rows = &d->base.rows;
-	const int old_count = d->working_count, old_columns = d->columns;
+	const int old_count = d->working_count;
+	*added = 0;
+	if (d->slots == rows->count) return JN_OK;
+	JN_TRY(find_velocities(d));
 	for (int i = 0; i < rows->contacts; ++i) {
-		if (!needs_columns(d, i, slack)) continue;
-		d->column_of[i] = d->columns;
-		d->columns += rows->first[i + 1] - rows->first[i];
-		d->working[d->working_count++] = i;
+		const int row = rows->first[i];
+		if (d->is_working[i] || rows->first[i + 1] == row) continue;
+		if (rows->lambda[row] > 0 || rows->after[row] < -slack) add_working(d, i);
 	}
 	*added = d->working_count - old_count;
-	d->base.report.rows = d->columns;
-	if (*added == 0) return JN_OK;
-	JN_TRY(reserve_columns(d, d->columns));
-	return fill_columns(d, old_count, old_columns, d->columns);
+	d->base.report.rows = d->slots;
+	return *added > 0 ? jn_delassus_fill(d, old_count) : JN_OK;
 }
 
-void jn_delassus_velocities(JnDelassus* d) {
-	const JnQpRows* rows = &d->base.rows;
-	memcpy(rows->after, rows->before, (size_t)rows->count * sizeof *rows->after);
+double jn_delassus_residual(const JnDelassus* d) {
+	double most_lambda = 0, error = 0;
+	for (int s = 0; s < d->slots; ++s) most_lambda = fmax(most_lambda, fabs(d->lambda[s]));
+	if (most_lambda == 0) most_lambda = 1;
 	for (int k = 0; k < d->working_count; ++k) {
-		const int i = d->working[k];
-		for (int row = rows->first[i]; row < rows->first[i + 1]; ++row) {
-			const double* column = d->at + (size_t)(d->column_of[i] + row - rows->first[i]) * (size_t)rows->count;
-			const double lambda = rows->lambda[row];
-			for (int r = 0; lambda != 0 && r < rows->count; ++r) rows->after[r] += lambda * column[r];
+		double w[3] = {0}, l[3] = {0}, rest[3];
+		for (int s = d->start[k]; s < d->start[k + 1]; ++s) {
+			w[s - d->start[k]] = d->after[s] / d->base.rows.velocity_scale;
+			l[s - d->start[k]] = d->lambda[s] / most_lambda;
 		}
+		jn_coulomb_residual(d->mu[k], 1, w, l, rest);
+		const double contact = fmax(fabs(rest[0]), hypot(rest[1], rest[2]));
+		if (!(contact <= error)) error = contact;
+		if (isnan(error)) return NAN;
 	}
+	return error;
 }
 
-static bool has_friction(const JnQpRows* rows) {
-	for (int i = 0; i < rows->contacts; ++i)
-		if (rows->first[i + 1] - rows->first[i] == 3) return true;
-	return false;
+void jn_delassus_clip(JnDelassus* d) {
+	for (int k = 0; k < d->working_count; ++k) {
+		double* l = d->lambda + d->start[k];
+		l[0] = fmax(0, l[0]);
+		if (d->start[k + 1] - d->start[k] == 3) jn_disk_project(d->mu[k] * l[0], &l[1], &l[2]);
+	}
 }
 
 static JnStatus solve(JnQp* qp) {
 	JnDelassus* d = (JnDelassus*)qp;
 	JN_TRY(jn_delassus_begin(d));
-	memcpy(qp->rows.after, qp->rows.before, (size_t)qp->rows.count * sizeof *qp->rows.after);
-	return has_friction(&qp->rows) ? jn_delassus_coulomb(d) : jn_delassus_pivot(d);
+	const JnStatus status = jn_delassus_iterate(d);
+	write_lambda(d);
+	return status;
 }
 
 static void release(JnQp* qp) {
 	JnDelassus* d = (JnDelassus*)qp;
-	free(d->at);
-	free(d->indices.at);
-	free(d->batch.at);
+	jn_delassus_release_matrix(d);
+	free(d->slot_numbers.at);
+	free(d->slot_indices.at);
 	free(d->numbers.at);
-	free(d->dense.at);
+	jn_block_release(&d->factor);
 	free(d->marks.at);
 }
 
 const JnQpType jn_qp_delassus = {
 	.row = {.name = "delassus",
-			.doc = "active sets and semismooth Newton steps on the dense matrix G C^-1 G' of the contacts that touch",
+			.doc = "sweeps and semismooth Newton steps on the matrix G C^-1 G' of the contacts that touch",
 			.keys = jn_qp_keys,
 			.options_size = sizeof(JnQpDef)},
 	.size = sizeof(JnDelassus),

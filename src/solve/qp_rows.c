@@ -56,6 +56,18 @@ void jn_qp_rows_clip(const JnQp* qp, int contact) {
 	if (rows == 3) jn_disk_project(qp->rows.mu[contact] * l[0], &l[1], &l[2]);
 }
 
+int jn_qp_body_of(const JnContactProblem* problem, int node) {
+	int low = 0, high = problem->body_count - 1;
+	while (low < high) {
+		const int middle = low + (high - low + 1) / 2;
+		if (problem->first_node[middle] <= node)
+			low = middle;
+		else
+			high = middle - 1;
+	}
+	return low;
+}
+
 JnStatus jn_qp_rows_prepare(JnQp* qp, const JnContactProblem* problem, const double* guess) {
 	JN_TRY(reserve(qp, problem));
 	qp->problem = problem;
@@ -65,17 +77,19 @@ JnStatus jn_qp_rows_prepare(JnQp* qp, const JnContactProblem* problem, const dou
 		const double mu = problem->friction != NULL ? problem->friction[i] : 0;
 		const double e = jn_contact_row_scale(problem, i);
 		const int count = e == 0 ? 0 : mu > 0 ? 3 : 1;
-		double u[3];
+		double u[3], bound[3];
 		jn_contact_velocity(problem, i, problem->vp, u);
+		jn_contact_bound(problem, i, bound);
 		rows->mu[i] = mu;
 		rows->scale[i] = e;
 		rows->first[i] = rows->count;
 		for (int axis = 0; axis < count; ++axis) {
-			const double scaled = e * u[axis], bound = axis == 0 ? e * problem->bound[i] : 0;
-			rows->before[rows->count + axis] = scaled - bound;
+			rows->before[rows->count + axis] = e * (u[axis] - bound[axis]);
 			rows->lambda[rows->count + axis] = guess[3 * (size_t)i + (size_t)axis] / e;
-			rows->velocity_scale = fmax(rows->velocity_scale, fmax(fabs(scaled), fabs(bound)));
+			rows->velocity_scale = fmax(rows->velocity_scale, e * fmax(fabs(u[axis]), fabs(bound[axis])));
 		}
+		if (count > 0)
+			rows->velocity_scale = fmax(rows->velocity_scale, jn_contact_least_velocity(problem, i, problem->vp));
 		rows->count += count;
 		rows->first[i + 1] = rows->count;
 		jn_qp_rows_clip(qp, i);
@@ -89,6 +103,12 @@ void jn_qp_rows_unscale(const JnQp* qp, double* lambda) {
 		for (int axis = 0; axis < 3; ++axis)
 			lambda[3 * (size_t)i + (size_t)axis] =
 				axis < row_count(qp, i) ? rows->scale[i] * rows->lambda[rows->first[i] + axis] : 0;
+}
+
+bool jn_qp_rows_press(const JnQpRows* rows) {
+	for (int row = 0; row < rows->count; ++row)
+		if (rows->lambda[row] != 0) return true;
+	return false;
 }
 
 void jn_qp_rows_apply(const JnQp* qp, const double* v, double* out) {

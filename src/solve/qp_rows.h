@@ -1,6 +1,6 @@
 /// @file qp_rows.h
 /// What contact solvers work on: the rows of G, scaled, one a contact without friction and three with it, and memory that
-/// grows and is used again. Scaled rows: G^ = E G, lambda = E lambda^, b = E (G vp - g).
+/// grows and is used again. Scaled rows: G^ = E G, lambda = E lambda^, b = E (G vp - bound).
 #ifndef JN_SOLVE_QP_ROWS_H
 #define JN_SOLVE_QP_ROWS_H
 
@@ -46,11 +46,17 @@ struct JnQp {
 	double *rhs, *change, *work;    ///< those vectors
 };
 
+/// The body of a node; 0 when all nodes are one body.
+int jn_qp_body_of(const JnContactProblem* problem, int node);
+
 /// Prepare qp->rows for a problem, lambda from `guess` (3 * count), brought into the cone.
 JnStatus jn_qp_rows_prepare(JnQp* qp, const JnContactProblem* problem, const double* guess);
 
 /// Write the multipliers of the rows as 3 a contact.
 void jn_qp_rows_unscale(const JnQp* qp, double* lambda);
+
+/// Whether some multiplier is not 0.
+bool jn_qp_rows_press(const JnQpRows* rows);
 
 /// out[row] = G^ v.
 void jn_qp_rows_apply(const JnQp* qp, const double* v, double* out);

@@ -6,6 +6,7 @@
 
 #include "jounce/extend.h"
 #include "math/pattern.h"
+#include "solve/half.h"
 
 typedef struct JnSolver JnSolver;
 
@@ -27,6 +28,9 @@ typedef struct JnSolverType {
 	JnStatus (*solve)(JnSolver*, int slot, const double* rhs, double* out);
 	/// The same for `count` vectors, one behind the other; out may be rhs. NULL: call solve for each.
 	JnStatus (*solve_many)(JnSolver*, int slot, int count, const double* rhs, double* out);
+	/// Append to `out` the halves of sparse right-hand sides, whose dot products are those of A^-1; held entries of the
+	/// columns are dropped. All halves of one `out` are by the same factor. NULL: not known.
+	JnStatus (*half)(JnSolver*, int slot, const JnColumns* columns, JnHalf* out);
 	/// Like solve, to about six digits, from a factor in single precision where options allow it.
 	JnStatus (*approximate)(JnSolver*, int slot, const double* rhs, double* out);
 	JnSolverCost (*cost)(const JnSolver*);

@@ -85,15 +85,15 @@ static inline void ipopt_number(IpoptProblem ipopt, const char* name, double val
 static inline void ipopt_solve(const QpCase* c, double* v) {
 	const int n = 3 * c->pattern.nodes, m = c->problem.count;
 	double *low = malloc((size_t)n * sizeof *low), *high = malloc((size_t)n * sizeof *high);
-	double* infinite = malloc((size_t)m * sizeof *infinite);
+	double *least_speed = malloc((size_t)m * sizeof *least_speed), *infinite = malloc((size_t)m * sizeof *infinite);
 	for (int k = 0; k < n; ++k) {
 		low[k] = c->held[k] ? c->vp[k] : -1e20;
 		high[k] = c->held[k] ? c->vp[k] : 1e20;
 	}
-	for (int i = 0; i < m; ++i) infinite[i] = 1e20;
-	IpoptProblem ipopt =
-		CreateIpoptProblem(n, low, high, m, c->bound, infinite, 3 * c->start[m], ipopt_matrix(c, 1, NULL, NULL, NULL),
-						   0, ipopt_objective, ipopt_constraints, ipopt_gradient, ipopt_jacobian, ipopt_hessian);
+	for (int i = 0; i < m; ++i) least_speed[i] = c->bound[i][0], infinite[i] = 1e20;
+	IpoptProblem ipopt = CreateIpoptProblem(n, low, high, m, least_speed, infinite, 3 * c->start[m],
+											ipopt_matrix(c, 1, NULL, NULL, NULL), 0, ipopt_objective, ipopt_constraints,
+											ipopt_gradient, ipopt_jacobian, ipopt_hessian);
 	assert_non_null(ipopt);
 	ipopt_number(ipopt, "tol", 1e-11);
 	ipopt_number(ipopt, "bound_relax_factor", 0);
@@ -107,6 +107,7 @@ static inline void ipopt_solve(const QpCase* c, double* v) {
 	FreeIpoptProblem(ipopt);
 	free(low);
 	free(high);
+	free(least_speed);
 	free(infinite);
 }
 

@@ -67,6 +67,18 @@ static void both_solvers_find_the_same_velocities(void** state) {
 		}
 }
 
+static void walls_of_boxes_are_solved_however_stiff_they_are(void** state) {
+	(void)state;
+	for (int e = 5; e <= 10; ++e)
+		for (int m = 0; m < MUS; ++m) {
+			QpCase c;
+			qp_case_wall(&c, (QpWall){3, 3, 4, 3, pow(10, e), mus[m]});
+			qp_case_expect(&c, &jn_qp_delassus,
+						   e < 10 ? 1e-8 : 1e-6); // W is known to 1e-16 of what is 1e8 times larger
+			qp_case_destroy(&c);
+		}
+}
+
 static void redundant_contacts_of_a_stiff_box_are_solved_with_any_friction(void** state) {
 	(void)state;
 	for (int m = 0; m <= 10; ++m) {
@@ -81,7 +93,7 @@ static void append_again(QpCase* c, int i, double tilt) {
 	const int first = c->start[i];
 	const double* f = c->frame[i];
 	const double normal[3] = {f[0] + tilt, f[1] - tilt, f[2] + 2 * tilt};
-	qp_touch(c, c->start[i + 1] - first, c->node + first, c->weight + first, normal, c->bound[i], c->friction[i]);
+	qp_touch(c, c->start[i + 1] - first, c->node + first, c->weight + first, normal, c->bound[i][0], c->friction[i]);
 }
 
 static void expect_same_with_copies(const Named* build, double mu, double tilt, double tolerance) {
@@ -119,7 +131,7 @@ static void reverse(QpCase* from, QpCase* to) {
 	memcpy(to->vp, from->vp, 3 * (size_t)from->pattern.nodes * sizeof *to->vp);
 	for (int i = from->problem.count - 1; i >= 0; --i) {
 		const int first = from->start[i], count = from->start[i + 1] - first;
-		qp_touch(to, count, from->node + first, from->weight + first, from->frame[i], from->bound[i],
+		qp_touch(to, count, from->node + first, from->weight + first, from->frame[i], from->bound[i][0],
 				 from->friction[i]);
 	}
 }
@@ -166,7 +178,7 @@ static void numbers_that_are_not_finite_are_refused(void** state) {
 	for (int t = 0; t < QP_TYPES; ++t) {
 		QpCase c;
 		build_random(&c, 0.3);
-		c.bound[7] = NAN;
+		c.bound[7][0] = NAN;
 		assert_int_equal(qp_case_solve(&c, qp_types[t], 1e-8), JN_NOT_FINITE);
 		assert_memory_equal(c.v, c.vp, 60 * sizeof *c.v);
 		qp_case_destroy(&c);
@@ -195,6 +207,48 @@ static void a_solution_as_guess_is_found_again_at_once(void** state) {
 		}
 }
 
+// The step after: velocities have changed a little, the guess is the solution of the step before.
+static void a_guess_from_the_step_before_saves_factorisations(void** state) {
+	(void)state;
+	static const double youngs[] = {1e5, 1e7};
+	for (int m = 0; m < MUS; ++m)
+		for (int y = 0; y < 2; ++y) {
+			QpCase c;
+			uint64_t seed = 8;
+			qp_case_wall(&c, (QpWall){3, 2, 3, 2, youngs[y], mus[m]});
+			JnQp* qp = NULL;
+			const JnQpDef options = {.tolerance = 1e-8, .max_iterations = 5000};
+			JnQpReport first, second;
+			assert_int_equal(jn_qp_create(&jn_qp_delassus, &options, &qp), JN_OK);
+			assert_int_equal(jn_qp_solve(qp, &c.problem, c.v, c.lambda, &first), JN_OK);
+			for (int k = 0; k < 3 * c.pattern.nodes; ++k) c.vp[k] += 1e-7 * random_number(&seed);
+			assert_int_equal(jn_qp_solve(qp, &c.problem, c.v, c.lambda, &second), JN_OK);
+			if (second.factorizations > 1 || second.sweeps > first.sweeps)
+				fail_msg("mu %g, %g Pa: %d factors and %d sweeps, at first %d and %d", mus[m], youngs[y],
+						 second.factorizations, second.sweeps, first.factorizations, first.sweeps);
+			jn_qp_destroy(qp);
+			qp_case_destroy(&c);
+		}
+}
+
+// A wall of six boxes: contacts couple bodies through two others and more.
+static void halves_and_solutions_lead_to_the_same_velocities(void** state) {
+	(void)state;
+	for (int m = 0; m < MUS; ++m) {
+		QpCase c;
+		qp_case_wall(&c, (QpWall){3, 2, 3, 2, 1e6, mus[m]});
+		const int n = 3 * c.pattern.nodes;
+		qp_case_expect(&c, &jn_qp_delassus, 1e-10);
+		double* v = copy(c.v, n);
+		c.problem.matrix.half = NULL;
+		qp_case_expect(&c, &jn_qp_delassus, 1e-10);
+		// residuals of 1e-10, magnified less than a hundred times
+		expect_near(largest_difference(v, c.v, n), 0, 1e-8, "mu %g", mus[m]);
+		free(v);
+		qp_case_destroy(&c);
+	}
+}
+
 static void splitting_works_from_the_verbs_alone(void** state) {
 	(void)state;
 	for (int m = 0; m < 2; ++m) {
@@ -204,6 +258,7 @@ static void splitting_works_from_the_verbs_alone(void** state) {
 		qp_case_expect(&c, &jn_qp_admm, 1e-8);
 		double* v = copy(c.v, n);
 		c.problem.matrix.blocks = NULL;
+		c.problem.matrix.half = NULL;
 		c.problem.matrix.solve_many = NULL;
 		for (int t = 0; t < QP_TYPES; ++t) {
 			qp_case_expect(&c, qp_types[t], 1e-8);
@@ -249,6 +304,7 @@ static void residuals_see_every_kind_of_error(void** state) {
 int main(void) {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(both_solvers_find_the_same_velocities),
+		cmocka_unit_test(walls_of_boxes_are_solved_however_stiff_they_are),
 		cmocka_unit_test(redundant_contacts_of_a_stiff_box_are_solved_with_any_friction),
 		cmocka_unit_test(contacts_that_are_given_twice_change_nothing),
 		cmocka_unit_test(contacts_that_are_nearly_given_twice_change_nearly_nothing),
@@ -256,6 +312,8 @@ int main(void) {
 		cmocka_unit_test(bounds_that_contradict_each_other_are_reported_with_finite_velocities),
 		cmocka_unit_test(numbers_that_are_not_finite_are_refused),
 		cmocka_unit_test(a_solution_as_guess_is_found_again_at_once),
+		cmocka_unit_test(a_guess_from_the_step_before_saves_factorisations),
+		cmocka_unit_test(halves_and_solutions_lead_to_the_same_velocities),
 		cmocka_unit_test(splitting_works_from_the_verbs_alone),
 		cmocka_unit_test(residuals_see_every_kind_of_error),
 	};

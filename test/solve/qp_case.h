@@ -12,14 +12,15 @@ enum { QP_CASE_LIMIT = 6000, QP_NODES_LIMIT = 5 * QP_CASE_LIMIT };
 
 typedef struct QpCase {
 	JnArena arena;
-	JnPattern pattern;
+	JnPattern pattern, body_pattern; ///< of all, and of one of several bodies
 	double *blocks, *vp, *v, *lambda;
 	double* place; ///< rest positions of boxes [m]; NULL of dense cases
 	bool* held;
-	JnSolver* solver;
+	JnSolver* solver;  ///< of all bodies together
+	JnSolver** halves; ///< of each body alone
 	int *first_node, *start, *node;
-	double *weight, *bound, *friction;
-	double (*frame)[9];
+	double *weight, *friction;
+	double (*frame)[9], (*bound)[3];
 	JnContactProblem problem;
 	JnQpReport report;
 } QpCase;
@@ -40,6 +41,11 @@ static inline JnStatus qp_solve_many(void* user, int count, const double* rhs, d
 	return jn_solver_direct.solve_many(c->solver, 0, count, rhs, out);
 }
 
+static inline JnStatus qp_half(void* user, int body, const JnColumns* columns, JnHalf* out) {
+	const QpCase* c = user;
+	return jn_solver_direct.half(c->halves[body], 0, columns, out);
+}
+
 static inline void qp_diagonal(void* user, double* out) {
 	const QpCase* c = user;
 	for (int node = 0; node < c->pattern.nodes; ++node)
@@ -48,6 +54,15 @@ static inline void qp_diagonal(void* user, double* out) {
 }
 
 #define QP_TAKE(c, field, count) ((c)->field = jn_arena_take(&(c)->arena, (size_t)(count), sizeof *(c)->field))
+
+/// Factor C, of all bodies and of each.
+static inline void qp_case_factor(QpCase* c) {
+	assert_int_equal(jn_solver_direct.factor(c->solver, 0, c->blocks), JN_OK);
+	for (int b = 0; b < c->problem.body_count; ++b) {
+		const double* blocks = c->blocks + 9 * (size_t)c->pattern.column_start[c->first_node[b]];
+		assert_int_equal(jn_solver_direct.factor(c->halves[b], 0, blocks), JN_OK);
+	}
+}
 
 /// After pattern, blocks and held are there: the rest of a problem without contacts, and the factor of C.
 static inline void qp_case_finish(QpCase* c, int bodies) {
@@ -59,7 +74,7 @@ static inline void qp_case_finish(QpCase* c, int bodies) {
 	for (int b = 0; b <= bodies; ++b) c->first_node[b] = nodes / bodies * b;
 	c->problem = (JnContactProblem){
 		.nodes = nodes,
-		.matrix = {c, qp_apply, qp_solve_one, qp_solve_many, qp_diagonal, &c->pattern, c->blocks},
+		.matrix = {c, qp_apply, qp_solve_one, qp_solve_many, qp_diagonal, &c->pattern, c->blocks, qp_half},
 		.held = c->held,
 		.vp = c->vp,
 		.body_count = bodies,
@@ -68,12 +83,18 @@ static inline void qp_case_finish(QpCase* c, int bodies) {
 		.node = c->node,
 		.weight = c->weight,
 		.frame = (const double(*)[9])c->frame,
-		.bound = c->bound,
+		.bound = (const double(*)[3])c->bound,
 		.friction = c->friction,
 	};
 	const JnDirectDef options = {.precision = 1};
 	assert_int_equal(jn_solver_direct.create(&options, &c->pattern, c->held, &c->solver), JN_OK);
-	assert_int_equal(jn_solver_direct.factor(c->solver, 0, c->blocks), JN_OK);
+	QP_TAKE(c, halves, bodies);
+	for (int b = 0; b < bodies; ++b) {
+		const JnPattern* one = bodies == 1 ? &c->pattern : &c->body_pattern;
+		const bool* held = c->held + 3 * c->first_node[b];
+		assert_int_equal(jn_solver_direct.create(&options, one, held, &c->halves[b]), JN_OK);
+	}
+	qp_case_factor(c);
 }
 
 /// C = B B' / n + I over `nodes` nodes, B random in [-1, 1], one body.
@@ -96,6 +117,14 @@ static inline void qp_case_dense(QpCase* c, int nodes, uint64_t seed) {
 				c->blocks[9 * (size_t)k + (size_t)e] = sum;
 			}
 	qp_case_finish(c, 1);
+}
+
+/// The first `nodes` nodes of a pattern whose bodies are alike; shares its arrays.
+static inline JnPattern qp_first_body(const JnPattern* all, int nodes) {
+	JnPattern one = *all;
+	one.nodes = nodes;
+	one.blocks = all->column_start[nodes];
+	return one;
 }
 
 /// The pattern of `copies` bodies like the one of `from`.
@@ -151,11 +180,13 @@ static inline void qp_case_boxes(QpCase* c, QpBoxes def) {
 			blocks[k] = def.dt * def.dt * sys->stiffness[k] + (k % 9 % 4 == 0 ? rig.model->mass[k / 9] : 0);
 	}
 	rig_destroy(&rig);
+	c->body_pattern = qp_first_body(&c->pattern, c->pattern.nodes / def.copies);
 	qp_case_finish(c, def.copies);
 }
 
 static inline void qp_case_destroy(QpCase* c) {
 	jn_solver_direct.destroy(c->solver);
+	for (int b = 0; b < c->problem.body_count; ++b) jn_solver_direct.destroy(c->halves[b]);
 	jn_arena_free(&c->arena);
 }
 
@@ -174,7 +205,8 @@ static inline int qp_touch(QpCase* c, int count, const int* nodes, const double*
 		c->weight[c->start[i] + k] = weights[k];
 	}
 	c->start[i + 1] = c->start[i] + count;
-	c->bound[i] = bound;
+	c->bound[i][0] = bound;
+	c->bound[i][1] = c->bound[i][2] = 0;
 	c->friction[i] = mu;
 	return i;
 }
@@ -233,6 +265,31 @@ static inline void qp_case_velocity(QpCase* c, int body, double x, double y, dou
 	const double velocity[3] = {x, y, z};
 	for (int k = 3 * c->first_node[body]; k < 3 * c->first_node[body + 1]; ++k)
 		c->vp[k] = c->held[k] ? 0 : velocity[k % 3];
+}
+
+typedef struct QpWall {
+	int per_layer, layers;
+	int side, height; ///< cells of a box
+	double young, mu; ///< [Pa]
+} QpWall;
+
+/// Boxes in layers that fall on the ground, each on a corner of one and on an edge of another of the layer below; dt = 10 ms.
+static inline void qp_case_wall(QpCase* c, QpWall def) {
+	static const double up[3] = {0, 0, 1};
+	uint64_t seed = 3;
+	const double top = 0.1 * def.height, half = 0.5 * def.side;
+	qp_case_boxes(c,
+				  (QpBoxes){{def.side, def.side, def.height}, def.per_layer * def.layers, 0.01, def.young, FACE_NONE});
+	for (int b = 0; b < c->problem.body_count; ++b)
+		qp_case_velocity(c, b, 0.3 * random_number(&seed), 0.1 * random_number(&seed),
+						 -0.2 - 0.1 * (b / def.per_layer));
+	for (int k = 0; k < 3 * c->pattern.nodes; ++k) c->vp[k] += 0.05 * random_number(&seed);
+	for (int b = 0; b < c->problem.body_count; ++b) {
+		const int below = b - def.per_layer;
+		if (below < 0) qp_touch_ground(c, b, up, 0, def.mu);
+		if (below >= 0) qp_touch_stacked(c, b, below, top, half + 0.2, def.mu);
+		if (below >= 0 && (below + 1) % def.per_layer > 0) qp_touch_stacked(c, b, below + 1, top, 0.3 - half, def.mu);
+	}
 }
 
 /// Solve from lambda = 0 into c->v and c->lambda; returns the outcome.
