@@ -10,7 +10,8 @@
 ///   A vertex deeper in a closed body than the margin is found too.
 /// - Further points of the surface that are locally nearest, in front and within the margin give contacts as well, nearest
 ///   first, if their normals are more than 45 degrees from those before: corners and clefts. JN_CONTACTS_MOST at most.
-/// - When none of these exist, one within the margin at the end of the step gives a contact with the nearest point then.
+/// - When none of these exist, one within the margin at the end of the step gives a contact with the nearest point then,
+///   if it comes nearer along the normal there.
 /// A surface with a rim (a sheet) has no inside: its gaps are >= 0 and its normals point to the side of the vertex; exactly
 /// on it, to the side that it faces. Keep vertices at a small distance from sheets, so that rounding cannot exchange sides.
 /// An obstacle gives one contact, from the same moments, and a second one where it is not convex and the first would let

@@ -5,6 +5,7 @@
 #include "math/vec3.h"
 
 static const double ALIKE = 0.70710678118654752; // cosine of 45 degrees: normals nearer to each other are one direction
+static const double SHALLOW = 1e-3;              // of the margin: less deep inside is on the surface
 static const double OWN =
 	0.5; // of their distance at rest: less far behind its own surface, a vertex is inside its body
 
@@ -164,7 +165,8 @@ int jn_meeting_contacts(JnMeeting* meeting, JnContact* contacts) {
 	if (first != NULL) nearest = *first;
 	const bool is_near = first != NULL;
 	const bool is_inside = is_near ? is_behind(meeting, &nearest, 0) : find_deep(meeting, &nearest);
-	if (!is_inside) add_touches(meeting, &found);
+	// On the surface within rounding, it may still meet other parts of it.
+	if (!is_inside || (is_near && nearest.distance <= SHALLOW * meeting->margin)) add_touches(meeting, &found);
 	if (is_near || is_inside) add_near(&found, meeting, &nearest, 0);
 	if (is_near) {
 		rank(meeting, 0);
@@ -174,5 +176,7 @@ int jn_meeting_contacts(JnMeeting* meeting, JnContact* contacts) {
 	measure(meeting, 1);
 	rank(meeting, 1);
 	add_nears(meeting, &found, 1);
-	return found.count;
+	// What comes out from behind the plane of that moment was no nearer before: it is on its way from somewhere else.
+	const bool recedes = found.count > 0 && contacts[0].gap < contacts[0].gap_end;
+	return recedes ? 0 : found.count;
 }

@@ -4,7 +4,7 @@
 #include "detect/meeting.h"
 #include "math/vec3.h"
 
-static const double ALIKE = 0.70710678118654752; // cosine of 45 degrees, as for triangles
+static const double SEEN = 0.5; // share of the overlap at the end that a plane must see to stand for the surface
 
 enum {
 	ADVANCES = 200
@@ -63,7 +63,9 @@ int jn_meeting_obstacle(const JnMover* mine, int vertex, const JnObstacle* obsta
 	finish(&way, &last);
 	int count = 0;
 	if (is_near || is_touched) contacts[count++] = first;
-	const bool is_missed = count == 0 ? at_end <= margin : at_end < 0 && vec3_dot(first.normal, last.normal) < ALIKE;
+	const bool is_unseen =
+		at_end < 0 && first.gap_end > SEEN * at_end; // the first plane does not stand for the surface there
+	const bool is_missed = count == 0 ? at_end <= margin : is_unseen;
 	if (is_missed && last.gap >= last.gap_end) contacts[count++] = last;
 	return count;
 }

@@ -3,6 +3,7 @@
 #include "math/vec3.h"
 
 static const double NO_DIRECTION = 1e-6; // of the longest edge: shorter offsets are mostly rounding
+static const double ON_EDGE = 1e-9;      // weights below it are rounding: the point is on the edge opposite
 static const double SAME = 1 + 1e-12;    // distances of the same point, computed from two triangles
 
 static void corners_at(const JnMover* mover, int triangle, double when, double out[3][3]) {
@@ -46,14 +47,14 @@ static double angle_at(const JnMover* mover, int triangle, int vertex, double wh
 /// The corner at which the point is, or -1.
 static int corner_of(const double weights[3]) {
 	for (int i = 0; i < 3; i++)
-		if (weights[(i + 1) % 3] == 0 && weights[(i + 2) % 3] == 0) return i;
+		if (weights[(i + 1) % 3] <= ON_EDGE && weights[(i + 2) % 3] <= ON_EDGE) return i;
 	return -1;
 }
 
 /// The corner opposite the edge on which the point is, or -1.
 static int edge_of(const double weights[3]) {
 	for (int i = 0; i < 3; i++)
-		if (weights[i] == 0) return i;
+		if (weights[i] <= ON_EDGE) return i;
 	return -1;
 }
 

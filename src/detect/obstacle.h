@@ -6,6 +6,8 @@
 #include "jounce/extend.h"
 #include "mesh/triangle_tree.h"
 
+// What the rows know of their shapes. Scenes say some of it in other words: obstacle_create.h.
+
 /// The half space behind a plane.
 typedef struct JnPlaneDef {
 	double point[3];  ///< any point of the plane [m]
@@ -41,9 +43,15 @@ typedef struct JnMeshDef {
 /// gradient of the distance; where that jumps (centre of a sphere, edges inside a block) one of its sides is taken. It is
 /// never NAN for finite points.
 typedef struct JnObstacleType {
-	JnRow row; ///< options are the struct named with the rows below; keys NULL: filled by the caller
+	JnRow row; ///< its options are as a scene file says them
+	/// From options that a scene filled to the geometry struct named with the rows below: `*geometry` is made in the arena,
+	/// or the options themselves. JN_BAD_INPUT for what their keys cannot refuse, and files that cannot be used; `what` is
+	/// the key path of the shape, for messages.
+	JnStatus (*create)(const void* options, const char* what, JnArena* arena, const void** geometry);
 	/// Signed distance of `point` [m], and the normal at the nearest point of the surface.
-	double (*distance)(const void* options, const double point[3], double normal[3]);
+	double (*distance)(const void* geometry, const double point[3], double normal[3]);
+	/// Triangles to look at: see obstacle_surface.h.
+	JnStatus (*surface)(const void* geometry, const JnTreeBox* around, JnArena* arena, JnSurface* out);
 } JnObstacleType;
 
 extern const JnRowList jn_obstacle_list;         ///< rows are &JnObstacleType.row
@@ -55,12 +63,12 @@ extern const JnObstacleType jn_obstacle_mesh;    ///< JnMeshDef
 
 typedef struct JnObstacle {
 	const JnObstacleType* type;
-	const void* options; ///< borrowed; the struct of the row
+	const void* geometry; ///< borrowed; the struct named with the row
 } JnObstacle;
 
 /// Signed distance of a point [m] and the normal there.
 static inline double jn_obstacle_distance(const JnObstacle* obstacle, const double point[3], double normal[3]) {
-	return obstacle->type->distance(obstacle->options, point, normal);
+	return obstacle->type->distance(obstacle->geometry, point, normal);
 }
 
 #endif
