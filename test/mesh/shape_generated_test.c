@@ -179,6 +179,22 @@ static void edges_of_a_sheet_have_names(void** state) {
 	}
 }
 
+static void a_turned_sheet_has_its_middle_and_corners(void** state) {
+	(void)state;
+	ShapeCase c;
+	shape_make(&c, "{type: sheet, plane: xz, size: [4, 3], thickness: 1e-6, cells: [4, 3], rotate: [0, 0, 30 deg]}");
+	const JnNodeSet* corners = mesh_set(&c.mesh, "corners");
+	assert_int_equal(corners->count, 8);
+	for (int i = 0; i < 8; ++i) { // 2 m from the middle line, turned about z: up on the right
+		const double* x = c.mesh.nodes + 3 * corners->nodes[i];
+		const double side = x[0] > 2 ? 1 : -1;
+		assert_true(fabs(x[0] - (2 + side * 2 * cos(M_PI / 6))) < 2e-6); // the thickness
+		assert_true(fabs(x[1] - side * 2 * sin(M_PI / 6)) < 2e-6);
+		assert_true(fabs(x[2] * (3 - x[2])) < 1e-12);
+	}
+	shape_free(&c);
+}
+
 static void ends_of_a_cylinder_have_names(void** state) {
 	(void)state;
 	for (int axis = 0; axis < 3; ++axis) {
@@ -227,6 +243,7 @@ int main(void) {
 		cmocka_unit_test(flat_sided_shapes_have_their_exact_volume),
 		cmocka_unit_test(volumes_of_round_shapes_converge_with_order_two),
 		cmocka_unit_test(edges_of_a_sheet_have_names),
+		cmocka_unit_test(a_turned_sheet_has_its_middle_and_corners),
 		cmocka_unit_test(ends_of_a_cylinder_have_names),
 		cmocka_unit_test(the_surface_of_a_ball_is_its_sphere),
 		cmocka_unit_test(numbers_that_make_no_shape_are_refused),

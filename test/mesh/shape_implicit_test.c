@@ -121,6 +121,23 @@ static void toys_of_voxels_carry_a_finer_surface(void** unused) {
 	shape_free(&c);
 }
 
+// Half a turn about y leaves the middle of the box where it is, and the beak at the other end.
+static void a_turned_duck_looks_elsewhere(void** unused) {
+	(void)unused;
+	ShapeCase c, turned;
+	shape_make(&c, "{type: duck, size: 1, cell: 10 cm, mesh: voxels, origin: [1, 2, 3]}");
+	shape_make(&turned, "{type: duck, size: 1, cell: 10 cm, mesh: voxels, origin: [1, 2, 3], rotate: [0, 180 deg, 0]}");
+	for (int i = 0; i < 3 * c.mesh.node_count; i++) {
+		const double x = c.mesh.nodes[i], expected = i % 3 == 0 ? 2 - x : i % 3 == 2 ? 6 - x : x;
+		assert_true(fabs(turned.mesh.nodes[i] - expected) < 1e-12);
+	}
+	const JnSurface *straight = &c.mesh.embedding->surface, *other = &turned.mesh.embedding->surface;
+	for (int i = 0; i < straight->node_count; i++)
+		assert_true(fabs(straight->nodes[3 * i] + other->nodes[3 * i] - 2) < 1e-12);
+	shape_free(&c);
+	shape_free(&turned);
+}
+
 static void cells_of_senseless_size_are_refused(void** unused) {
 	(void)unused;
 	shape_expect_refusal("{type: duck, size: 1, cell: 0.1 mm}", "ask for larger ones");
@@ -136,6 +153,7 @@ int main(void) {
 		cmocka_unit_test(smaller_cells_give_more_of_them),
 		cmocka_unit_test(a_beach_ball_is_a_sphere_with_grooves),
 		cmocka_unit_test(toys_of_voxels_carry_a_finer_surface),
+		cmocka_unit_test(a_turned_duck_looks_elsewhere),
 		cmocka_unit_test(cells_of_senseless_size_are_refused),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 // Toys given by signed distances: a rubber duck and a beach ball. Their zero sets become triangles, whose inside is
 // filled with tetrahedra or surrounded with cubes. Both are described in their own units, which the key `size` scales.
 #include "base/log.h"
+#include "mesh/embed.h"
 #include "mesh/fill/isosurface.h"
 #include "mesh/fill/tetrahedra.h"
 #include "mesh/fill/voxels.h"
@@ -9,6 +10,7 @@
 
 typedef struct ToyDef {
 	double origin[3]; ///< where it stands: middle of the bounding box's bottom [m]
+	double rotate[3]; ///< about the middle of the bounding box [rad]
 	double size;      ///< largest edge of the bounding box [m]
 	double cell;      ///< edge length of the cells [m]; NAN: a share of the size
 	int mesh;         ///< 0 tetrahedra, 1 voxels
@@ -58,10 +60,30 @@ static double field_at(const void* shape, const double point[3]) {
 	return ((const Toy*)shape)->at(point);
 }
 
-/// From the toy's units to metres.
-static void place(const Toy* toy, const ToyDef* def, double scale, int count, double* nodes) {
-	const double foot[3] = {0.5 * (toy->low[0] + toy->high[0]), toy->low[1], 0.5 * (toy->low[2] + toy->high[2])};
-	for (int i = 0; i < 3 * count; i++) nodes[i] = def->origin[i % 3] + scale * (nodes[i] - foot[i % 3]);
+/// From the toy's units to metres, the middle of its bounding box at the zero point: so all toys of a size and cell have
+/// the same mesh, and the tetrahedra are made once.
+static void scale_about_middle(const Toy* toy, double scale, int count, double* nodes) {
+	for (int i = 0; i < 3 * count; i++) nodes[i] = scale * (nodes[i] - 0.5 * (toy->low[i % 3] + toy->high[i % 3]));
+}
+
+/// Turn the mesh and what it carries about the zero point, and move it to where it stands.
+static JnStatus place(const Toy* toy, const ToyDef* def, double scale, const char* what, JnMesh* mesh) {
+	JnPlacementDef placement = {.scale = 1};
+	for (int a = 0; a < 3; a++) {
+		placement.rotate[a] = def->rotate[a];
+		placement.translate[a] = def->origin[a] + (a == 1 ? 0.5 * scale * (toy->high[1] - toy->low[1]) : 0);
+	}
+	if (mesh->embedding != NULL) {
+		const JnSurface* surface = &mesh->embedding->surface;
+		JN_TRY(jn_placement_apply(&placement, what, surface->node_count, surface->nodes));
+	}
+	return jn_placement_apply(&placement, what, mesh->node_count, mesh->nodes);
+}
+
+static JnStatus fill(const JnSurface* surface, const ToyDef* def, double cell, const char* what, JnArena* arena,
+					 JnMesh* mesh) {
+	return def->mesh == 1 ? jn_voxels_fill(surface, cell, what, arena, mesh)
+						  : jn_tetrahedra_inside(surface, cell, what, arena, mesh);
 }
 
 static JnStatus generate(const Toy* toy, const ToyDef* def, const char* what, JnArena* arena, JnMesh* mesh) {
@@ -79,15 +101,16 @@ static JnStatus generate(const Toy* toy, const ToyDef* def, const char* what, Jn
 						def->size, MOST_CELL * def->size);
 	JnSurface surface;
 	JN_TRY(jn_isosurface(&field, triangle / scale, what, arena, &surface));
-	place(toy, def, scale, surface.node_count, surface.nodes);
-	if (def->mesh == 1) return jn_voxels_fill(&surface, cell, what, arena, mesh);
-	return jn_tetrahedra_inside(&surface, cell, what, arena, mesh);
+	scale_about_middle(toy, scale, surface.node_count, surface.nodes);
+	JN_TRY(fill(&surface, def, cell, what, arena, mesh));
+	return place(toy, def, scale, what, mesh);
 }
 
 static const char* const mesh_names[] = {"tetrahedra", "voxels", NULL};
 
 static const JnKey toy_keys[] = {
 	JN_POSITION_KEY(ToyDef, origin, "where it stands: the middle of its bounding box's bottom"),
+	JN_ROTATE_KEY(ToyDef),
 	JN_LENGTH_KEY(ToyDef, size, "largest edge of the bounding box: the duck's length, the ball's diameter"),
 	{.name = "cell",
 	 .kind = JN_REAL,

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "mesh/shape/placement.h"
 #include "mesh/shape/shape.h"
 
 extern const char* const jn_element_names[]; ///< by JnShape
@@ -26,6 +27,13 @@ extern const char* const jn_axis_names[];    ///< x, y, z
 /// A position, [0, 0, 0] by default.
 #define JN_POSITION_KEY(type, field_name, text)                                                                        \
 	{ .name = #field_name, .kind = JN_REAL3, .field = offsetof(type, field_name), .unit = "m", .meaning = text }
+
+/// Turns as those of bodies from files (placement.h), but about the shape's middle.
+#define JN_ROTATE_KEY(type)                                                                                            \
+	{                                                                                                                  \
+		.name = "rotate", .kind = JN_REAL3, .field = offsetof(type, rotate), .unit = "rad",                            \
+		.meaning = "turns about x, then y, then z, right-handed about its middle, such as [0 deg, 90 deg, 0 deg]"      \
+	}
 
 /// A length > 0 that must be given.
 #define JN_LENGTH_KEY(type, field_name, text)                                                                          \

@@ -1,9 +1,11 @@
 // Sheets: thin plates, such as a cloth of one layer of hexahedra.
+#include <string.h>
+
 #include "mesh/shape/blocks.h"
 #include "mesh/shape/shape_keys.h"
 
 typedef struct SheetDef {
-	double origin[3];
+	double origin[3], rotate[3];
 	double size[2], thickness;
 	int cells[2], layers;
 	int plane; // 0 xy, 1 xz, 2 yz
@@ -24,13 +26,49 @@ static void place(const JnBlock* block, const int at[3], double X[3]) {
 	}
 }
 
+// The nodes that are in a set of both directions.
+static JnStatus add_corners(JnArena* arena, JnMesh* mesh) {
+	JnNodeSet* sets;
+	int *seen, count = 0;
+	JN_NEW(arena, sets, mesh->set_count + 1);
+	JN_NEW(arena, seen, mesh->node_count);
+	for (int s = 0; s < mesh->set_count; ++s) {
+		sets[s] = mesh->sets[s];
+		for (int i = 0; i < sets[s].count; ++i) count += ++seen[sets[s].nodes[i]] == 2;
+	}
+	JnNodeSet* corners = &sets[mesh->set_count];
+	*corners = (JnNodeSet){.name = "corners"};
+	JN_NEW(arena, corners->nodes, count);
+	for (int i = 0; i < mesh->node_count; ++i)
+		if (seen[i] == 2) corners->nodes[corners->count++] = i;
+	mesh->sets = sets;
+	++mesh->set_count;
+	return JN_OK;
+}
+
+// About its middle; bit for bit as it was without turns.
+static JnStatus turn(const SheetDef* def, const char* what, JnMesh* mesh) {
+	if (def->rotate[0] == 0 && def->rotate[1] == 0 && def->rotate[2] == 0) return JN_OK;
+	const double size[3] = {def->size[0], def->size[1], def->thickness};
+	JnPlacementDef placement = {.scale = 1};
+	memcpy(placement.rotate, def->rotate, sizeof def->rotate);
+	for (int k = 0; k < 3; ++k) {
+		const int axis = axes[def->plane][k];
+		placement.translate[axis] = def->origin[axis] + size[k] / 2;
+	}
+	for (int k = 0; k < 3 * mesh->node_count; ++k) mesh->nodes[k] -= placement.translate[k % 3];
+	return jn_placement_apply(&placement, what, mesh->node_count, mesh->nodes);
+}
+
 static JnStatus generate(const void* options, const char* what, JnArena* arena, JnMesh* mesh) {
 	const SheetDef* def = options;
 	const JnBlock block = {.cells = {def->cells[0], def->cells[1], def->layers},
 						   .place = place,
 						   .options = def,
 						   .sets = {"left", "right", "lower", "upper"}};
-	return jn_blocks_join(1, &block, (JnShape)def->element, what, arena, mesh);
+	JN_TRY(jn_blocks_join(1, &block, (JnShape)def->element, what, arena, mesh));
+	JN_TRY(add_corners(arena, mesh));
+	return turn(def, what, mesh);
 }
 
 static const JnKey keys[] = {
@@ -39,7 +77,8 @@ static const JnKey keys[] = {
 	 .field = offsetof(SheetDef, plane),
 	 .names = planes,
 	 .meaning = "the axes along its two edges; it is thick along the third"},
-	JN_POSITION_KEY(SheetDef, origin, "corner with the lowest coordinates"),
+	JN_POSITION_KEY(SheetDef, origin, "corner with the lowest coordinates, before it is turned"),
+	JN_ROTATE_KEY(SheetDef),
 	{.name = "size",
 	 .kind = JN_REAL2,
 	 .field = offsetof(SheetDef, size),
@@ -70,7 +109,7 @@ static const JnKey keys[] = {
 const JnShapeType jn_shape_sheet = {
 	.row = {"sheet",
 			"A thin plate in a plane of two axes; its edges are the sets left, right (along the first axis), lower, "
-			"upper.",
+			"upper, and its four corners the set corners.",
 			keys, sizeof(SheetDef)},
 	.generate = generate,
 };
