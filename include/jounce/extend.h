@@ -204,6 +204,7 @@ typedef struct JnStep {
 	const JnState* start;
 	JnState* end;
 	double dt;
+	int order; ///< of the integrator; set by whoever corrects the end, integrators do not read it
 	JnReport report;
 } JnStep;
 
@@ -294,6 +295,51 @@ struct JnController {
 	const JnControllerType* type;
 	const void* options; ///< struct of type->row.keys
 	void* memory;
+};
+
+// ---- passes: what acts on a step beside the integrator, such as contact
+
+typedef struct JnPass JnPass;
+typedef struct JnModel JnModel;
+
+/// A number that a pass adds to the series of every step.
+typedef struct JnPassColumn {
+	const char *name, *unit;
+	bool is_count;
+} JnPassColumn;
+
+/// Numbers of every node that a pass adds to the frames of a recording.
+typedef struct JnPassField {
+	const char *name, *unit;
+	int components; ///< a node: 1 or 3
+} JnPassField;
+
+/// What happens to an attempt, in this order; each verb may be NULL:
+///   prepare -> integrator -> correct, again if `correct` asks for it -> controller -> commit when it is accepted.
+/// A rejected attempt leaves no trace: only `commit` changes what a pass remembers.
+typedef struct JnPassType {
+	JnRow row;
+	size_t definition; ///< offset in JnSimDef of the pointer to its options; NULL there: this pass does not run
+	/// Build it for a model; *out is NULL when there is nothing to do. Messages begin with the key path.
+	JnStatus (*create)(const void* options, JnModel* model, JnPass** out);
+	void (*destroy)(JnPass*);
+	/// Before the integrator runs, for the `round`th time from this start.
+	JnStatus (*prepare)(JnPass*, const JnStep*, int round);
+	/// Edit the end. *edited tells whether it did; *again asks for another round. A status above 0 fails the attempt.
+	JnStatus (*correct)(JnPass*, JnStep*, int round, bool* edited, bool* again);
+	void (*commit)(JnPass*, const JnStep*);
+	/// Why the last attempt failed in this pass: a clause for a message, or "". At most `size` bytes.
+	void (*explain)(const JnPass*, size_t size, char* text);
+	int column_count;
+	const JnPassColumn* columns;
+	void (*measure)(const JnPass*, double* values); ///< one a column, of the last accepted step
+	int field_count;
+	const JnPassField* fields;
+	const double* (*field)(const JnPass*, int field); ///< components * nodes numbers of the last accepted step
+} JnPassType;
+
+struct JnPass {
+	const JnPassType* type;
 };
 
 #ifdef __cplusplus

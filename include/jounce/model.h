@@ -92,6 +92,20 @@ typedef struct JnWindDef {
 	int tangent;        ///< derivatives of the wind's force in K and D: 0 none, 1 exact
 } JnWindDef;
 
+/// How a body takes part in contact.
+typedef struct JnBodyContactDef {
+	bool active;         ///< false: it passes through everything
+	bool self;           ///< also against itself
+	const char* surface; ///< name of its contact material, for friction; NULL: "default"
+} JnBodyContactDef;
+
+/// A rigid thing that never moves, such as a floor.
+typedef struct JnObstacleDef {
+	const char* name;
+	JnVariant shape;     ///< row of jn_obstacle_list
+	const char* surface; ///< name of its contact material, for friction; NULL: "default"
+} JnObstacleDef;
+
 typedef struct JnBodyDef {
 	const char* name;
 	JnVariant shape;    ///< row of jn_shape_list
@@ -102,6 +116,7 @@ typedef struct JnBodyDef {
 	double velocity[3]; ///< of all free nodes at the start [m/s]
 	double spin[3];     ///< angular velocity at the start, about the centre of mass at rest; added to velocity [rad/s]
 	JnScatterDef scatter;
+	JnBodyContactDef contact;
 	JnItems sets;  ///< JnSetDef
 	JnItems fix;   ///< JnFixDef
 	JnItems drive; ///< JnDriveDef
@@ -110,6 +125,7 @@ typedef struct JnBodyDef {
 typedef struct JnModelDef {
 	double gravity[3]; ///< [m/s^2]
 	JnItems bodies;    ///< JnBodyDef
+	JnItems obstacles; ///< JnObstacleDef
 	JnWindDef* wind;   ///< NULL: no air at all
 	JnVariant solver;  ///< row of the solver list
 } JnModelDef;
@@ -117,10 +133,13 @@ typedef struct JnModelDef {
 /// The rows of JnModelDef in a scene file.
 extern const JnKey jn_body_keys[];
 
+extern const JnKey jn_body_contact_keys[]; ///< of JnBodyContactDef
+
+/// The rows of JnObstacleDef in a scene file.
+extern const JnKey jn_obstacle_keys[];
+
 /// The rows of JnWindDef in a scene file.
 extern const JnKey jn_wind_keys[];
-
-typedef struct JnModel JnModel;
 
 /// Build meshes, elements, mass and constraints. `threads` >= 1. On failure *model is NULL and a message says why. The
 /// options of motions and the names in `def` must outlive the model.

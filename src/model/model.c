@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "mesh/shape/shape.h"
 #include "model/mass.h"
+#include "model/obstacles.h"
 #include "model/select.h"
 #include "model/system.h"
 #include "model/wind.h"
@@ -29,6 +30,8 @@ static JnStatus mesh_body(const JnBodyDef* def, int index, JnModel* model) {
 	memcpy(body->velocity, def->velocity, sizeof body->velocity);
 	memcpy(body->spin, def->spin, sizeof body->spin);
 	body->scatter = def->scatter;
+	body->contact = def->contact;
+	body->contact.surface = jn_surface_name(def->contact.surface);
 	const JnShapeType* shape = (const JnShapeType*)def->shape.row;
 	char what[96];
 	snprintf(what, sizeof what, "bodies[%d].shape", index);
@@ -189,6 +192,7 @@ static JnStatus build(const JnModelDef* def, JnModel* model, JnArena* scratch) {
 	if (def->bodies.count == 0) return jn_error(JN_BAD_INPUT, "bodies: there are none; a scene needs at least one");
 	memcpy(model->gravity, def->gravity, sizeof model->gravity);
 	JN_TRY(build_meshes(&def->bodies, model));
+	JN_TRY(jn_obstacles_create(&def->obstacles, model));
 	JN_TRY(constrain(&def->bodies, model, scratch));
 	JN_TRY(build_elements(&def->bodies, model));
 	JN_TRY(build_pattern(model, scratch));

@@ -3,6 +3,7 @@
 #ifndef JN_MODEL_MODEL_H
 #define JN_MODEL_MODEL_H
 
+#include "detect/obstacle.h"
 #include "force/kernel.h"
 #include "jounce/model.h"
 #include "math/pattern.h"
@@ -23,7 +24,14 @@ typedef struct JnBody {
 	double velocity[3]; ///< at the start [m/s]
 	double spin[3];     ///< at the start [rad/s]
 	JnScatterDef scatter;
+	JnBodyContactDef contact; ///< its surface is never NULL
 } JnBody;
+
+typedef struct JnModelObstacle {
+	const char* name;
+	const char* surface; ///< name of its contact material, never NULL
+	JnObstacle shape;
+} JnModelObstacle;
 
 /// One coordinate that does not follow the equations of motion.
 typedef struct JnHeld {
@@ -38,6 +46,8 @@ struct JnModel {
 	double* rest; ///< 3 * node_count [m]
 	int body_count;
 	JnBody* bodies;
+	int obstacle_count;
+	JnModelObstacle* obstacles;
 	double gravity[3];
 	bool* held; ///< 3 * node_count
 	int held_count;

@@ -91,7 +91,8 @@ static JnStatus force(JnSystem* base, const JnState* s, JnVec f) {
 	JnModelSystem* sys = of(base);
 	const JnModel* model = sys->model;
 	update_internal(sys, s);
-	base->space->ops->combine(base->space, f, 2, (JnTerm[]){{1, sys->internal}, {1, sys->external}});
+	const JnTerm terms[] = {{1, sys->internal}, {1, sys->external}, {1, sys->load}};
+	base->space->ops->combine(base->space, f, sys->load != NULL ? 3 : 2, terms);
 	if (model->wind != NULL) jn_wind_force(model->wind, s, f);
 	if (sys->alpha_mass != NULL) jn_scalars_apply(&model->pattern, sys->alpha_mass, -1, s->v, f, model->threads);
 	if (sys->damping_is_current && sys->damping_stamp != s->stamp) make_damping(sys, s->x, s->stamp);
@@ -112,9 +113,21 @@ static double gravity_potential(const JnModel* model, const double* x) {
 	return sum;
 }
 
+// Potential of the load: -load . (x - X).
+static double load_potential(const JnModelSystem* sys, const double* x) {
+	double sum = 0;
+	for (size_t k = 0; sys->load != NULL && k < sys->base.space->length; ++k)
+		sum -= sys->load[k] * (x[k] - sys->model->rest[k]);
+	return sum;
+}
+
 static double energy(JnSystem* base, const JnState* s) {
 	JnModelSystem* sys = of(base);
-	return jn_assembly_energy(sys->assembly, s->x) + gravity_potential(sys->model, s->x);
+	return jn_assembly_energy(sys->assembly, s->x) + gravity_potential(sys->model, s->x) + load_potential(sys, s->x);
+}
+
+void jn_model_system_set_load(JnModel* model, const double* load) {
+	of(model->system)->load = load;
 }
 
 static JnStatus linearize(JnSystem* base, const JnState* s) {

@@ -24,8 +24,9 @@ struct JnModelSystem {
 	JnSolver* unsymmetric; ///< for matrices with the wind's derivatives; NULL: those are ignored, or there is no wind
 	double* full;          ///< 9 a place of the pattern's full rows, for that solver
 
-	double* external; ///< gravity [N], 3 * nodes
-	double* internal; ///< internal forces at the state of internal_stamp [N]
+	double* external;   ///< gravity [N], 3 * nodes
+	const double* load; ///< further forces, constant over a step, such as those of contact [N]; NULL: none
+	double* internal;   ///< internal forces at the state of internal_stamp [N]
 	uint64_t internal_stamp;
 	double* stiffness; ///< K at the state of stiffness_stamp, 9 a block; exact
 	uint64_t stiffness_stamp;
@@ -47,6 +48,10 @@ struct JnModelSystem {
 /// Build the system of a finished model (mass, pattern and constraints present), into model->system.
 JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver);
 void jn_model_system_destroy(JnModel* model);
+
+/// Let `load`, 3 * nodes [N], act on the nodes until it is changed or taken away (NULL). It is borrowed, and must be
+/// constant while a step is computed.
+void jn_model_system_set_load(JnModel* model, const double* load);
 
 /// Find or make the matrix of a shift.
 JnStatus jn_model_matrix(JnModelSystem* sys, JnShift shift, JnMatrix** out);
