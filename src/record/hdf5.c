@@ -5,13 +5,15 @@
 //   /mesh/<body>/surface/...     see surface.c             /frames/00000000/surface [p,3]   [m], if one is embedded
 //   /topology/cells, body        all bodies, for XDMF      /series/<column> [steps]         one value a step
 //   /topology/surface, ..._body  their triangles           attributes of /: who, where, when, outcome
-//   /scene                       the scene file's text
+//   /obstacles/<name>/..., /topology/obstacle...: see obstacles.c, if there are any
+//   /scene                       the scene file's text     /frames/00000000/<field> [n,3] or [n], its unit an attribute
 #include <stdlib.h>
 
 #include "base/log.h"
 #include "base/timer.h"
 #include "record/h5_file.h"
 #include "record/host.h"
+#include "record/obstacles.h"
 #include "record/recorder.h"
 #include "record/surface.h"
 #include "record/topology.h"
@@ -68,7 +70,8 @@ static JnStatus write_mesh(JnH5File* file, const JnRecordInfo* info) {
 	JN_TRY(jn_h5_attribute_text(file, "/mesh/nodes", "unit", "m"));
 	JN_TRY(write_bodies(file, info));
 	JN_TRY(write_topology(file, info));
-	return jn_record_surface_write(file, info);
+	JN_TRY(jn_record_surface_write(file, info));
+	return jn_record_obstacles_write(file, info);
 }
 
 static JnStatus write_facts(JnH5File* file, const JnRecordInfo* info) {
@@ -176,6 +179,20 @@ static JnStatus write_points(Hdf5* hdf5, const char* group, const double* x) {
 	return jn_h5_array(&hdf5->file, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, hdf5->points);
 }
 
+static JnStatus write_fields(Hdf5* hdf5, const char* group, const double* const* fields) {
+	const JnRecordInfo* info = hdf5->base.info;
+	for (int i = 0; i < info->field_count; i++) {
+		const JnField* field = &info->fields[i];
+		const hsize_t dims[2] = {(hsize_t)info->node_count, (hsize_t)field->components};
+		const int rank = field->components > 1 ? 2 : 1;
+		char name[512];
+		snprintf(name, sizeof name, "%s/%s", group, field->name);
+		JN_TRY(jn_h5_array(&hdf5->file, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, rank, dims, fields[i]));
+		JN_TRY(jn_h5_attribute_text(&hdf5->file, name, "unit", field->unit));
+	}
+	return JN_OK;
+}
+
 static JnStatus write_frame(Hdf5* hdf5, const JnRecordStep* step) {
 	JnH5File* file = &hdf5->file;
 	const hsize_t dims[2] = {(hsize_t)hdf5->base.info->node_count, 3};
@@ -186,6 +203,7 @@ static JnStatus write_frame(Hdf5* hdf5, const JnRecordStep* step) {
 	JN_TRY(jn_h5_array(file, position, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, step->x));
 	JN_TRY(jn_h5_array(file, velocity, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, step->v));
 	JN_TRY(write_points(hdf5, group, step->x));
+	JN_TRY(write_fields(hdf5, group, step->fields));
 	JN_TRY(jn_h5_attribute_real(file, group, "time", step->t));
 	JN_TRY(jn_h5_attribute_integer(file, group, "step", step->step));
 	hdf5->frame_count++;

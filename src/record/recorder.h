@@ -15,6 +15,13 @@ typedef struct JnColumn {
 	bool is_count;    ///< written as an integer
 } JnColumn;
 
+/// Numbers of every node in every frame, beside position and velocity.
+typedef struct JnField {
+	const char* name; ///< "contact_force"; the name of its dataset in a frame
+	const char* unit; ///< "N"
+	int components;   ///< 1 or 3
+} JnField;
+
 /// The part of the mesh that one body owns.
 typedef struct JnRecordBody {
 	const char* name;
@@ -27,6 +34,12 @@ typedef struct JnRecordBody {
 	const JnEmbedding* embedding; ///< the surface that the cells carry along; NULL: it is made of faces of cells
 } JnRecordBody;
 
+/// A rigid thing that never moves, as it looks.
+typedef struct JnRecordObstacle {
+	const char* name;
+	JnSurface surface;
+} JnRecordObstacle;
+
 /// All that stays constant over a run.
 typedef struct JnRecordInfo {
 	const char* directory; ///< exists and is writable
@@ -38,10 +51,14 @@ typedef struct JnRecordInfo {
 	const double* nodes; ///< rest positions, 3 * node_count [m]
 	int body_count;
 	const JnRecordBody* bodies;
+	int obstacle_count;
+	const JnRecordObstacle* obstacles; ///< NULL: none
 	int column_count;
 	const JnColumn* columns;
-	bool wants_plots;  ///< draw plots/ at the end
-	double total_mass; ///< [kg]
+	int field_count;
+	const JnField* fields; ///< NULL: none
+	bool wants_plots;      ///< draw plots/ at the end
+	double total_mass;     ///< [kg]
 	int threads, simd_width;
 	const char* blas; ///< such as "OpenBLAS 0.3.21 SkylakeX"
 } JnRecordInfo;
@@ -53,6 +70,8 @@ typedef struct JnRecordStep {
 	bool is_frame;        ///< positions and velocities are due
 	const double *x, *v;  ///< 3 * node_count
 	const double* values; ///< column_count numbers
+	/// field_count arrays of components * node_count finite numbers, node by node; needed in frames. NULL: there are none
+	const double* const* fields;
 } JnRecordStep;
 
 /// How the run ended.
@@ -61,6 +80,7 @@ typedef struct JnRecordEnd {
 	const char* message; ///< one line, or ""
 	double wall_seconds; ///< time spent stepping
 	double setup_seconds;
+	double seconds_predict, seconds_detect, seconds_factor, seconds_qp; ///< parts of wall_seconds, as in JnReport
 	long steps, frames, rejected, newton, factorizations, solves, forces, tangents, indefinite, minimized;
 	double t, t_end;                           ///< reached and wanted [s]
 	double specific_error, specific_error_max; ///< |e_tot(t) - e_tot(0)|, at the end and largest [J/kg]

@@ -1,25 +1,44 @@
 // The recorders in the order in which they run, and the guard before them: what is not finite reaches no file.
 #include "record/recorder.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/log.h"
 
-extern const JnRecorderType jn_recorder_hdf5, jn_recorder_xdmf, jn_recorder_series, jn_recorder_summary,
-	jn_recorder_plots;
+extern const JnRecorderType jn_recorder_hdf5, jn_recorder_xdmf, jn_recorder_obstacles, jn_recorder_series,
+	jn_recorder_summary, jn_recorder_plots;
 
-// xdmf names what hdf5 has written; plots read what series has written.
+// xdmf and obstacles name what hdf5 has written; plots read what series has written.
 const JnRecorderType* const jn_recorder_list[] = {
-	&jn_recorder_hdf5, &jn_recorder_xdmf, &jn_recorder_series, &jn_recorder_summary, &jn_recorder_plots, NULL,
+	&jn_recorder_hdf5,
+	&jn_recorder_xdmf,
+	&jn_recorder_obstacles,
+	&jn_recorder_series,
+	&jn_recorder_summary,
+	&jn_recorder_plots,
+	NULL,
 };
 
-static JnStatus check_nodes(const double* vector, int node_count, const char* what, const char* unit, double t) {
-	for (size_t i = 0; i < 3 * (size_t)node_count; i++) {
-		if (isfinite(vector[i])) continue;
-		return jn_error(JN_NOT_FINITE, "the %s of node %zu is %g %s along %c at t = %g s; it was not recorded", what,
-						i / 3, vector[i], unit, "xyz"[i % 3], t);
+static JnStatus check_nodes(const double* numbers, int node_count, JnField field, double t) {
+	const size_t components = (size_t)field.components;
+	for (size_t i = 0; i < components * (size_t)node_count; i++) {
+		if (isfinite(numbers[i])) continue;
+		char axis[] = " along x";
+		axis[sizeof axis - 2] = "xyz"[i % components];
+		return jn_error(JN_NOT_FINITE, "the %s of node %zu is %g %s%s at t = %g s; it was not recorded", field.name,
+						i / components, numbers[i], field.unit, components > 1 ? axis : "", t);
 	}
+	return JN_OK;
+}
+
+static JnStatus check_frame(const JnRecordInfo* info, const JnRecordStep* step) {
+	assert(info->field_count == 0 || step->fields != NULL);
+	JN_TRY(check_nodes(step->x, info->node_count, (JnField){"position", "m", 3}, step->t));
+	JN_TRY(check_nodes(step->v, info->node_count, (JnField){"velocity", "m/s", 3}, step->t));
+	for (int i = 0; i < info->field_count; i++)
+		JN_TRY(check_nodes(step->fields[i], info->node_count, info->fields[i], step->t));
 	return JN_OK;
 }
 
@@ -43,10 +62,26 @@ static JnStatus check_name(const char* noun, const char* name) {
 		noun, name);
 }
 
+// A field becomes a dataset of each frame.
+static JnStatus check_field(const JnRecordInfo* info, int index) {
+	static const char* const taken[] = {"position", "velocity", "surface"};
+	const char* name = info->fields[index].name;
+	assert(info->fields[index].components == 1 || info->fields[index].components == 3);
+	JN_TRY(check_name("field", name));
+	bool is_taken = false;
+	for (size_t i = 0; i < sizeof taken / sizeof *taken; i++) is_taken |= strcmp(name, taken[i]) == 0;
+	for (int i = 0; i < index; i++) is_taken |= strcmp(name, info->fields[i].name) == 0;
+	if (!is_taken) return JN_OK;
+	return jn_error(JN_BAD_INPUT, "the field \"%s\" cannot be recorded: frames have one of that name; use another",
+					name);
+}
+
 static JnStatus check_info(const JnRecordInfo* info) {
 	for (int i = 0; i < info->body_count; i++) JN_TRY(check_name("body", info->bodies[i].name));
+	for (int i = 0; i < info->obstacle_count; i++) JN_TRY(check_name("obstacle", info->obstacles[i].name));
 	for (int i = 0; i < info->column_count; i++) JN_TRY(check_name("column", info->columns[i].name));
-	return check_nodes(info->nodes, info->node_count, "rest position", "m", 0);
+	for (int i = 0; i < info->field_count; i++) JN_TRY(check_field(info, i));
+	return check_nodes(info->nodes, info->node_count, (JnField){"rest position", "m", 3}, 0);
 }
 
 JnStatus jn_recorders_open(JnRecorders* recorders, JnArena* arena, const JnRecordInfo* info) {
@@ -76,10 +111,7 @@ JnStatus jn_recorders_write(JnRecorders* recorders, const JnRecordStep* step) {
 	if (recorders->count == 0) return JN_OK;
 	const JnRecordInfo* info = recorders->list[0]->info;
 	JN_TRY(check_values(info, step));
-	if (step->is_frame) {
-		JN_TRY(check_nodes(step->x, info->node_count, "position", "m", step->t));
-		JN_TRY(check_nodes(step->v, info->node_count, "velocity", "m/s", step->t));
-	}
+	if (step->is_frame) JN_TRY(check_frame(info, step));
 	for (int i = 0; i < recorders->count; i++) JN_TRY(recorders->list[i]->type->write(recorders->list[i], step));
 	return JN_OK;
 }

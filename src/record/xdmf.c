@@ -24,6 +24,8 @@ typedef struct XdmfView {
 	long point_count;
 	int vector_count;
 	const char* vectors[2][2]; // name and dataset of a frame; the first is the geometry
+	int field_count;
+	const JnField* fields; // of the points
 } XdmfView;
 
 enum { VIEWS = 2 };
@@ -51,10 +53,13 @@ static XdmfView view_of_cells(const JnRecordInfo* info) {
 		.point_count = info->node_count,
 		.vector_count = 2,
 		.vectors = {{"position", "position"}, {"velocity", "velocity"}},
+		.field_count = info->field_count,
+		.fields = info->fields,
 	};
 }
 
 static XdmfView view_of_surface(const JnRecordInfo* info) {
+	const bool has_embedding = jn_record_has_embedding(info);
 	return (XdmfView){
 		.file_name = "surface.xdmf",
 		.shape = "Triangle",
@@ -65,7 +70,9 @@ static XdmfView view_of_surface(const JnRecordInfo* info) {
 		.row_length = 3,
 		.point_count = jn_record_points(info),
 		.vector_count = 1,
-		.vectors = {{"position", jn_record_has_embedding(info) ? "surface" : "position"}},
+		.vectors = {{"position", has_embedding ? "surface" : "position"}},
+		.field_count = has_embedding ? 0 : info->field_count, // they are known at nodes only
+		.fields = info->fields,
 	};
 }
 
@@ -80,11 +87,19 @@ static void print_topology(JnTextFile* file, const XdmfView* view) {
 				  view->cells);
 }
 
-static void print_vector(JnTextFile* file, const XdmfView* view, long frame, const char* dataset) {
-	jn_text_print(file,
-				  "\t\t\t\t\t<DataItem Dimensions=\"%ld 3\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">"
-				  "run.h5:/frames/%08ld/%s</DataItem>\n",
-				  view->point_count, frame, dataset);
+static void print_numbers(JnTextFile* file, const XdmfView* view, long frame, const char* dataset, int components) {
+	jn_text_print(file, "\t\t\t\t\t<DataItem Dimensions=\"%ld", view->point_count);
+	if (components > 1) jn_text_print(file, " %d", components);
+	jn_text_print(file, "\" NumberType=\"Float\" Precision=\"8\" Format=\"HDF\">run.h5:/frames/%08ld/%s</DataItem>\n",
+				  frame, dataset);
+}
+
+static void print_attribute(JnTextFile* file, const XdmfView* view, long frame, const char* const names[2],
+							int components) {
+	jn_text_print(file, "\t\t\t\t<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"Node\">\n", names[0],
+				  components > 1 ? "Vector" : "Scalar");
+	print_numbers(file, view, frame, names[1], components);
+	jn_text_print(file, "\t\t\t\t</Attribute>\n");
 }
 
 static void print_frame(JnTextFile* file, const XdmfView* view, long frame, double time) {
@@ -92,13 +107,12 @@ static void print_frame(JnTextFile* file, const XdmfView* view, long frame, doub
 	jn_text_print(file, "\t\t\t\t<Time Value=\"%.17g\"/>\n", time);
 	print_topology(file, view);
 	jn_text_print(file, "\t\t\t\t<Geometry GeometryType=\"XYZ\">\n");
-	print_vector(file, view, frame, view->vectors[0][1]);
+	print_numbers(file, view, frame, view->vectors[0][1], 3);
 	jn_text_print(file, "\t\t\t\t</Geometry>\n");
-	for (int i = 0; i < view->vector_count; i++) {
-		jn_text_print(file, "\t\t\t\t<Attribute Name=\"%s\" AttributeType=\"Vector\" Center=\"Node\">\n",
-					  view->vectors[i][0]);
-		print_vector(file, view, frame, view->vectors[i][1]);
-		jn_text_print(file, "\t\t\t\t</Attribute>\n");
+	for (int i = 0; i < view->vector_count; i++) print_attribute(file, view, frame, view->vectors[i], 3);
+	for (int i = 0; i < view->field_count; i++) {
+		const JnField* field = &view->fields[i];
+		print_attribute(file, view, frame, (const char* [2]){field->name, field->name}, field->components);
 	}
 	jn_text_print(file,
 				  "\t\t\t\t<Attribute Name=\"body\" AttributeType=\"Scalar\" Center=\"Cell\">\n"

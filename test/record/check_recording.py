@@ -39,8 +39,10 @@ with h5py.File(f"{directory}/run.h5") as run:
 			time, point_data, cell_data = reader.read_data(k)
 			frame = run[f"frames/{k:08d}"]
 			assert time == frame.attrs["time"]
-			assert np.array_equal(point_data["position"], frame["position"])
-			assert np.array_equal(point_data["velocity"], frame["velocity"])
+			fields = set(frame) - {"surface"}
+			assert set(point_data) == fields, (set(point_data), fields)
+			for name in fields:
+				assert np.array_equal(point_data[name], frame[name]), name
 			assert [list(block) for block in cell_data["body"]] == [[i] for i in range(len(cells))]
 
 	surfaces = [run["mesh"][name]["surface"] for name in run["mesh"] if name != "nodes"]
@@ -56,6 +58,10 @@ with h5py.File(f"{directory}/run.h5") as run:
 			assert time == frame.attrs["time"]
 			assert np.array_equal(point_data["position"], frame["surface" if has_embedding else "position"])
 			assert len(cell_data["body"][0]) == len(cells[0].data)
+			fields = {"position"} if has_embedding else set(frame) - {"velocity"}
+			assert set(point_data) == fields, (set(point_data), fields)
+			for name in fields - {"position"}:
+				assert np.array_equal(point_data[name], frame[name]), name
 			for surface in surfaces:
 				if surface.attrs["kind"] != "embedded":
 					continue
@@ -64,3 +70,15 @@ with h5py.File(f"{directory}/run.h5") as run:
 				assert np.allclose(point_data["position"][first:first + count], carried, rtol=0, atol=1e-14)
 				own = surface["triangles"][()] + first
 				assert all((cells[0].data == triangle).all(axis=1).any() for triangle in own)
+
+	if "obstacles" in run:
+		mesh = meshio.read(f"{directory}/obstacles.xdmf")
+		names = ["floor", "wall"]
+		assert set(run["obstacles"]) == set(names)
+		first = 0
+		for i, name in enumerate(names):
+			points, own = run[f"obstacles/{name}/points"], run[f"obstacles/{name}/triangles"]
+			assert np.array_equal(mesh.points[first:first + len(points)], points), name
+			chosen = mesh.cell_data["obstacle"][0] == i
+			assert np.array_equal(mesh.cells[0].data[chosen], own[()] + first), name
+			first += len(points)

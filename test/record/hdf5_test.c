@@ -223,6 +223,63 @@ static void embedded_surface_moves_with_its_nodes(void** state) {
 	H5Fclose(file);
 }
 
+static void fields_read_back_bit_for_bit_with_their_units(void** state) {
+	Sample* sample = *state;
+	sample_add_fields(sample);
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	check_frames(sample, file, SAMPLE_FRAMES);
+	for (long i = 0; i < SAMPLE_FRAMES; i++) {
+		double push[3 * SAMPLE_NODES], depth[SAMPLE_NODES], read[3 * SAMPLE_NODES];
+		char name[64];
+		sample_field_values(i * SAMPLE_STEPS_A_FRAME, push, depth);
+		snprintf(name, sizeof name, "/frames/%08ld/push", i);
+		read_numbers(file, name, H5T_NATIVE_DOUBLE, 3 * SAMPLE_NODES, read);
+		assert_memory_equal(read, push, sizeof push);
+		check_text(file, name, "unit", "N");
+		snprintf(name, sizeof name, "/frames/%08ld/depth", i);
+		read_numbers(file, name, H5T_NATIVE_DOUBLE, SAMPLE_NODES, read);
+		assert_memory_equal(read, depth, sizeof depth);
+		check_text(file, name, "unit", "m");
+	}
+	H5Fclose(file);
+}
+
+static void obstacles_read_back_one_by_one_and_together(void** state) {
+	Sample* sample = *state;
+	sample_add_obstacles(sample);
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	const int expected[9] = {0, 1, 2, 0, 2, 3, 4, 5, 6}, expected_obstacles[3] = {0, 0, 1};
+	double points[21];
+	int triangles[9], obstacles[3];
+	read_numbers(file, "/obstacles/floor/points", H5T_NATIVE_DOUBLE, 12, points);
+	assert_memory_equal(points, sample_floor_points, sizeof sample_floor_points);
+	read_numbers(file, "/obstacles/wall/triangles", H5T_NATIVE_INT, 3, triangles);
+	assert_memory_equal(triangles, sample_wall_triangle, sizeof sample_wall_triangle);
+	read_numbers(file, "/topology/obstacle_points", H5T_NATIVE_DOUBLE, 21, points);
+	assert_memory_equal(points, sample_floor_points, sizeof sample_floor_points);
+	assert_memory_equal(points + 12, sample_wall_points, sizeof sample_wall_points);
+	read_numbers(file, "/topology/obstacle_triangles", H5T_NATIVE_INT, 9, triangles);
+	assert_memory_equal(triangles, expected, sizeof expected);
+	read_numbers(file, "/topology/obstacle", H5T_NATIVE_INT, 3, obstacles);
+	assert_memory_equal(obstacles, expected_obstacles, sizeof expected_obstacles);
+	H5Fclose(file);
+}
+
+static void a_run_without_obstacles_has_no_trace_of_them(void** state) {
+	Sample* sample = *state;
+	sample_add_obstacles(sample);
+	sample_record(sample);
+	assert_int_equal(access(sample_path(sample, "obstacles.xdmf"), R_OK), 0);
+	sample->info.obstacle_count = 0;
+	sample_record(sample);
+	assert_int_not_equal(access(sample_path(sample, "obstacles.xdmf"), F_OK), 0);
+	const hid_t file = open_file(sample);
+	assert_int_equal(H5Lexists(file, "/obstacles", H5P_DEFAULT), 0);
+	H5Fclose(file);
+}
+
 static void file_tells_its_origin_and_outcome(void** state) {
 	Sample* sample = *state;
 	sample_record(sample);
@@ -351,13 +408,23 @@ static void run_after_a_full_disk_is_recorded(void** state) {
 
 int main(void) {
 	const struct CMUnitTest tests[] = {
-		TEST(frames_read_back_bit_for_bit),           TEST(series_read_back_bit_for_bit),
-		TEST(long_series_crosses_buffers_and_chunks), TEST(counts_are_stored_as_integers),
-		TEST(mesh_reads_back_with_its_bodies),        TEST(mixed_topology_leads_each_cell_with_its_number),
-		TEST(file_tells_its_origin_and_outcome),      TEST(killed_run_leaves_its_frames_readable),
-		TEST(running_file_can_be_read_by_others),     TEST(full_disk_ends_the_run_with_path_and_reason),
-		TEST(run_after_a_full_disk_is_recorded),      TEST(plain_bodies_have_the_faces_of_their_cells_as_surface),
-		TEST(embedded_surface_moves_with_its_nodes),  TEST(embedded_surface_reads_back_with_nodes_of_the_run),
+		TEST(frames_read_back_bit_for_bit),
+		TEST(series_read_back_bit_for_bit),
+		TEST(long_series_crosses_buffers_and_chunks),
+		TEST(counts_are_stored_as_integers),
+		TEST(mesh_reads_back_with_its_bodies),
+		TEST(mixed_topology_leads_each_cell_with_its_number),
+		TEST(file_tells_its_origin_and_outcome),
+		TEST(killed_run_leaves_its_frames_readable),
+		TEST(running_file_can_be_read_by_others),
+		TEST(full_disk_ends_the_run_with_path_and_reason),
+		TEST(run_after_a_full_disk_is_recorded),
+		TEST(plain_bodies_have_the_faces_of_their_cells_as_surface),
+		TEST(embedded_surface_moves_with_its_nodes),
+		TEST(embedded_surface_reads_back_with_nodes_of_the_run),
+		TEST(fields_read_back_bit_for_bit_with_their_units),
+		TEST(obstacles_read_back_one_by_one_and_together),
+		TEST(a_run_without_obstacles_has_no_trace_of_them),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

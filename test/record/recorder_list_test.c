@@ -24,7 +24,7 @@ static void unwritable_directory_is_named(void** state) {
 	check_message(sample, "/proc/self/run.h5");
 }
 
-// series.csv comes third: hdf5 and xdmf are open by then and have to be closed.
+// series.csv comes fourth: those before are open by then and have to be closed.
 static void failed_open_closes_those_before(void** state) {
 	Sample* sample = *state;
 	assert_int_equal(symlink("/dev/full", sample_path(sample, "series.csv")), 0);
@@ -58,6 +58,11 @@ static void full_disk_under_xdmf_is_told(void** state) {
 
 static void full_disk_under_surface_xdmf_is_told(void** state) {
 	check_full(*state, "surface.xdmf.tmp", "surface.xdmf");
+}
+
+static void full_disk_under_obstacles_xdmf_is_told(void** state) {
+	sample_add_obstacles(*state);
+	check_full(*state, "obstacles.xdmf.tmp", "obstacles.xdmf");
 }
 
 static void full_disk_under_summary_is_told(void** state) {
@@ -108,6 +113,42 @@ static void infinite_velocity_is_refused_by_node(void** state) {
 	check_refused(*state, values, x, v, "velocity of node 11 is inf m/s along z");
 }
 
+// Position and velocity are in order; the field is not.
+static void check_refused_field(Sample* sample, int field, int entry, const char* named) {
+	double values[SAMPLE_COLUMNS], x[3 * SAMPLE_NODES] = {0}, v[3 * SAMPLE_NODES] = {0};
+	double push[3 * SAMPLE_NODES], depth[SAMPLE_NODES];
+	const double* const fields[SAMPLE_FIELDS] = {push, depth};
+	sample_add_fields(sample);
+	sample_values(1, values);
+	sample_field_values(1, push, depth);
+	(field == 0 ? push : depth)[entry] = NAN;
+	assert_int_equal(sample_open(sample), JN_OK);
+	const JnRecordStep step = {
+		.step = 1, .t = 0.1, .is_frame = true, .x = x, .v = v, .values = values, .fields = fields};
+	assert_int_equal(jn_recorders_write(&sample->recorders, &step), JN_NOT_FINITE);
+	check_message(sample, named);
+	assert_int_equal(sample_close(sample), JN_OK);
+}
+
+static void nan_in_a_vector_field_is_refused_by_node(void** state) {
+	check_refused_field(*state, 0, 3 * 4 + 2, "push of node 4 is nan N along z at");
+}
+
+static void nan_in_a_scalar_field_is_refused_by_node(void** state) {
+	check_refused_field(*state, 1, 5, "depth of node 5 is nan m at");
+}
+
+static void field_called_as_another_is_refused(void** state) {
+	Sample* sample = *state;
+	const JnField fields[2][2] = {{{"push", "N", 3}, {"velocity", "m/s", 3}}, {{"push", "N", 3}, {"push", "N", 1}}};
+	for (int i = 0; i < 2; i++) {
+		sample->info.field_count = 2;
+		sample->info.fields = fields[i];
+		assert_int_equal(sample_open(sample), JN_BAD_INPUT);
+		check_message(sample, fields[i][1].name);
+	}
+}
+
 static void body_called_nodes_is_refused(void** state) {
 	Sample* sample = *state;
 	sample->bodies[0].name = "nodes";
@@ -136,13 +177,23 @@ static void second_close_does_nothing(void** state) {
 
 int main(void) {
 	const struct CMUnitTest tests[] = {
-		TEST(missing_directory_is_named),           TEST(unwritable_directory_is_named),
-		TEST(failed_open_closes_those_before),      TEST(full_disk_under_hdf5_is_told),
-		TEST(full_disk_under_xdmf_is_told),         TEST(full_disk_under_summary_is_told),
-		TEST(nan_in_a_column_is_refused_by_name),   TEST(nan_in_a_position_is_refused_by_node),
-		TEST(infinite_velocity_is_refused_by_node), TEST(body_called_nodes_is_refused),
-		TEST(column_with_a_comma_is_refused),       TEST(second_close_does_nothing),
+		TEST(missing_directory_is_named),
+		TEST(unwritable_directory_is_named),
+		TEST(failed_open_closes_those_before),
+		TEST(full_disk_under_hdf5_is_told),
+		TEST(full_disk_under_xdmf_is_told),
+		TEST(full_disk_under_summary_is_told),
+		TEST(nan_in_a_column_is_refused_by_name),
+		TEST(nan_in_a_position_is_refused_by_node),
+		TEST(infinite_velocity_is_refused_by_node),
+		TEST(body_called_nodes_is_refused),
+		TEST(column_with_a_comma_is_refused),
+		TEST(second_close_does_nothing),
 		TEST(full_disk_under_surface_xdmf_is_told),
+		TEST(full_disk_under_obstacles_xdmf_is_told),
+		TEST(nan_in_a_vector_field_is_refused_by_node),
+		TEST(nan_in_a_scalar_field_is_refused_by_node),
+		TEST(field_called_as_another_is_refused),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

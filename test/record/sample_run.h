@@ -51,6 +51,19 @@ static const JnEmbedding sample_embedding = {
 	.weights = sample_vertex_weights,
 };
 
+enum { SAMPLE_FIELDS = 2 };
+static const JnField sample_fields[SAMPLE_FIELDS] = {{"push", "N", 3}, {"depth", "m", 1}};
+
+/// A floor of two triangles and a wall of one.
+enum { SAMPLE_OBSTACLES = 2 };
+static double sample_floor_points[12] = {0, 0, 0, 0, 0, 1.5, 1.5, 0, 1.5, 1.5, 0, 0};
+static double sample_wall_points[9] = {0, 0, 0, 0.1, 0, 0, 0, 1 / 3.0, 0};
+static int sample_floor_triangles[6] = {0, 1, 2, 0, 2, 3}, sample_wall_triangle[3] = {0, 1, 2};
+static const JnRecordObstacle sample_obstacles[SAMPLE_OBSTACLES] = {
+	{"floor", {4, sample_floor_points, 2, sample_floor_triangles}},
+	{"wall", {3, sample_wall_points, 1, sample_wall_triangle}},
+};
+
 typedef struct Sample {
 	char directory[64];
 	double nodes[3 * SAMPLE_NODES];
@@ -142,12 +155,38 @@ static inline void sample_state(long k, const Sample* sample, double* x, double*
 	}
 }
 
+/// Let the run have a floor and a wall.
+static inline void sample_add_obstacles(Sample* sample) {
+	sample->info.obstacle_count = SAMPLE_OBSTACLES;
+	sample->info.obstacles = sample_obstacles;
+}
+
+/// Record two made-up fields in each frame.
+static inline void sample_add_fields(Sample* sample) {
+	sample->info.field_count = SAMPLE_FIELDS;
+	sample->info.fields = sample_fields;
+}
+
+/// Both fields of step k.
+static inline void sample_field_values(long k, double push[3 * SAMPLE_NODES], double depth[SAMPLE_NODES]) {
+	for (int i = 0; i < 3 * SAMPLE_NODES; i++) push[i] = exp(0.1 * (double)(i - k));
+	for (int i = 0; i < SAMPLE_NODES; i++) depth[i] = -1 / (double)(i + k + 3);
+}
+
 static inline JnStatus sample_write(Sample* sample, long k) {
 	double values[SAMPLE_COLUMNS], x[3 * SAMPLE_NODES], v[3 * SAMPLE_NODES];
+	double push[3 * SAMPLE_NODES], depth[SAMPLE_NODES];
+	const double* const fields[SAMPLE_FIELDS] = {push, depth};
 	sample_values(k, values);
 	sample_state(k, sample, x, v);
-	const bool is_frame = k % SAMPLE_STEPS_A_FRAME == 0;
-	const JnRecordStep step = {.step = k, .t = values[1], .is_frame = is_frame, .x = x, .v = v, .values = values};
+	sample_field_values(k, push, depth);
+	const JnRecordStep step = {.step = k,
+							   .t = values[1],
+							   .is_frame = k % SAMPLE_STEPS_A_FRAME == 0,
+							   .x = x,
+							   .v = v,
+							   .values = values,
+							   .fields = sample->info.field_count > 0 ? fields : NULL};
 	return jn_recorders_write(&sample->recorders, &step);
 }
 
@@ -156,6 +195,7 @@ static inline JnRecordEnd sample_end(void) {
 		.outcome = "done",
 		.message = "tab\there, quote \", backslash \\",
 		.wall_seconds = 4,
+		.seconds_predict = 2.5,
 		.steps = SAMPLE_STEPS - 1,
 		.frames = SAMPLE_FRAMES,
 		.newton = 30,

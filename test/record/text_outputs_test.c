@@ -61,6 +61,7 @@ static void summary_escapes_texts_and_has_no_infinity(void** state) {
 	check_contains(json, "\t\"scene\": \"it's a \\\"beam\\\"\",\n");
 	check_contains(json, "\t\"scene_path\": \"scenes/b\\ufffd.yaml\",\n");
 	check_contains(json, "\t\"wall_seconds_per_simulated_second\": 2,\n"); // 4 s of work for 2 s
+	check_contains(json, "\t\"seconds_predict\": 2.5,\n");
 	check_contains(json, "\t\"specific_error_max\": null,\n");
 	check_contains(json, "\t\"newton\": 30,\n");
 	free(json);
@@ -228,6 +229,36 @@ static void python_opens_a_run_with_an_embedded_surface(void** state) {
 	check_by_python(*state, "hexahedron tetra");
 }
 
+static void python_opens_a_run_with_fields(void** state) {
+	sample_add_fields(*state);
+	check_by_python(*state, "hexahedron tetra");
+}
+
+static void python_opens_a_run_with_fields_and_an_embedded_surface(void** state) {
+	sample_add_fields(*state);
+	sample_embed(*state);
+	check_by_python(*state, "hexahedron tetra");
+}
+
+static void python_opens_obstacles(void** state) {
+	sample_add_obstacles(*state);
+	check_by_python(*state, "hexahedron tetra");
+}
+
+static void xdmf_has_vector_and_scalar_fields(void** state) {
+	Sample* sample = *state;
+	sample_add_fields(sample);
+	sample_record(sample);
+	for (int i = 0; i < 2; i++) {
+		char* xml = sample_read(sample, i == 0 ? "run.xdmf" : "surface.xdmf");
+		check_contains(xml, "<Attribute Name=\"push\" AttributeType=\"Vector\" Center=\"Node\">");
+		check_contains(xml, "<Attribute Name=\"depth\" AttributeType=\"Scalar\" Center=\"Node\">");
+		assert_int_equal(count_parts(xml, "<DataItem Dimensions=\"12\" NumberType=\"Float\""), SAMPLE_FRAMES);
+		check_contains(xml, "run.h5:/frames/00000004/depth");
+		free(xml);
+	}
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, sample_setup, sample_teardown)
 
 int main(void) {
@@ -248,6 +279,10 @@ int main(void) {
 		TEST(python_opens_a_run_with_an_embedded_surface),
 		TEST(xdmf_of_plain_surfaces_uses_the_nodes),
 		TEST(xdmf_of_an_embedded_surface_has_its_own_points),
+		TEST(xdmf_has_vector_and_scalar_fields),
+		TEST(python_opens_a_run_with_fields),
+		TEST(python_opens_obstacles),
+		TEST(python_opens_a_run_with_fields_and_an_embedded_surface),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }
