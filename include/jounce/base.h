@@ -72,6 +72,10 @@ typedef struct JnReport {
 	int rejected;       ///< attempts thrown away before this one
 	double error;    ///< embedded estimate of the step's error in position, largest entry [m]; 0: the method has none
 	double residual; ///< residual norm at the end of the last stage, relative to the force scale
+	double seconds_predict; ///< wall time of the integrator [s]
+	double seconds_detect;  ///< of finding contacts and making rows of them [s]
+	double seconds_factor;  ///< of contact's matrices, filled and factored [s]
+	double seconds_qp;      ///< of contact's quadratic programs, the rest of a correction [s]
 } JnReport;
 
 #ifdef __cplusplus

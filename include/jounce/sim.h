@@ -9,9 +9,29 @@
 extern "C" {
 #endif
 
+/// Friction between two contact materials, in either order.
+typedef struct JnContactPairDef {
+	const char *first, *second; ///< names, as `surface` of bodies and obstacles says
+	double friction;            ///< coefficient mu
+} JnContactPairDef;
+
+/// How bodies meet each other and obstacles: the predictor-corrector of HO section 4 (docs/contact.md).
+typedef struct JnContactDef {
+	int rule;       ///< 0 approaching: surfaces meet and do not overlap; 1 touching: as in the paper
+	int prediction; ///< contact forces that act in it: 0 carried, those of the last step; 1 iterated, of this one; 2 free
+	int rounds;     ///< most predictions a step where they are iterated
+	double margin;   ///< distance within which a vertex is watched [m]; NAN: a twentieth of the mean edge
+	double push_out; ///< fastest separation of what overlaps [m/s]
+	double friction; ///< mu of pairs that `pairs` does not name
+	JnItems pairs;   ///< JnContactPairDef
+	int damping; ///< D in the corrector's matrix: 0 auto: unless the prediction is free, as in the paper; 1 no; 2 yes
+	JnVariant solver; ///< row of jn_qp_list
+} JnContactDef;
+
 typedef struct JnSimDef {
 	JnModelDef model;
-	JnVariant integrator; ///< row of the integrator list
+	JnContactDef* contact; ///< NULL: bodies pass through each other
+	JnVariant integrator;  ///< row of the integrator list
 	JnNewtonDef newton;
 	JnVariant step;  ///< row of the controller list
 	double duration; ///< simulated time [s]
@@ -43,6 +63,9 @@ long jn_sim_steps(const JnSim* sim);                  ///< accepted so far
 double jn_sim_last_dt(const JnSim* sim);              ///< size of the last accepted step [s]; 0 before the first
 const JnReport* jn_sim_last_report(const JnSim* sim); ///< cost of the last step, its rejected attempts included
 int jn_sim_threads(const JnSim* sim);
+
+/// The passes that run, in order; *count of them.
+JnPass* const* jn_sim_passes(const JnSim* sim, int* count);
 
 #ifdef __cplusplus
 }

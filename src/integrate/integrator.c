@@ -65,7 +65,6 @@ void jn_integrator_forget(JnIntegrator* self) {
 }
 
 void jn_integrator_reset(JnIntegrator* self) {
-	jn_integrator_forget(self);
 	if (self->memory != NULL) memset(self->memory, 0, self->type->memory_size);
 }
 

@@ -19,7 +19,8 @@ JnStatus jn_integrator_accepts(const JnIntegratorType* type, const JnSystem* sys
 /// Forget the kept tangent: the next stage makes a new one.
 void jn_integrator_forget(JnIntegrator* integrator);
 
-/// Forget everything that came from earlier steps, because someone edited the state: kept tangent and history.
+/// Forget the history of earlier steps, because someone edited the state. The kept tangent stays: it is only a way to
+/// solve.
 void jn_integrator_reset(JnIntegrator* integrator);
 
 /// a = M^-1 f(s): the acceleration of a state, held entries as prescribed [m/s^2]. Uses integrator->residual as work.

@@ -69,6 +69,7 @@ static void put(Oscillator* o, double x, double v) {
 	o->start.t = 0;
 	o->start.x[0] = x;
 	o->start.v[0] = v;
+	jn_integrator_forget(o->integrator);
 	jn_integrator_reset(o->integrator);
 	jn_state_touch(o->sys->space, &o->start);
 }

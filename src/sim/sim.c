@@ -1,5 +1,6 @@
 // The loop of every simulation:
-//   repeat (integrator: start -> end; controller: accept?) until accepted -> swap -> begin the next step
+//   repeat (passes: prepare; integrator: start -> end; passes: correct; controller: accept?) until accepted
+//   -> passes: commit -> swap -> begin the next step
 // The system begins a step as soon as its start is known, so that energies reported for a state use the rotations of
 // that state.
 #include "jounce/sim.h"
@@ -11,8 +12,10 @@
 #include "base/log.h"
 #include "base/parallel.h"
 #include "base/space.h"
+#include "base/timer.h"
 #include "control/controller.h"
 #include "integrate/integrator.h"
+#include "pass/pass.h"
 #include "sim/sim_keys.h"
 
 struct JnSim {
@@ -24,6 +27,7 @@ struct JnSim {
 	JnSystem* sys;
 	JnIntegrator* integrator;
 	JnController* controller;
+	JnPasses passes;
 	JnState start, end; // start is the state of the last accepted step
 	double next_dt, last_dt;
 	long steps;
@@ -56,6 +60,7 @@ static JnStatus create_with_model(JnSim* sim, const JnSimDef* def) {
 	JN_TRY(jn_model_create(&def->model, sim->threads, &sim->model));
 	sim->sys = jn_model_system(sim->model);
 	JN_TRY(create_parts(sim));
+	JN_TRY(jn_passes_create(def, sim->model, &sim->passes));
 	jn_model_start(sim->model, 0, &sim->start);
 	return begin_first_step(sim);
 }
@@ -109,6 +114,7 @@ JnStatus jn_sim_create_for(JnSystem* sys, const char* settings, const double* x,
 
 void jn_sim_destroy(JnSim* sim) {
 	if (sim == NULL) return;
+	jn_passes_destroy(&sim->passes);
 	jn_controller_destroy(sim->controller);
 	jn_integrator_destroy(sim->integrator);
 	if (sim->sys != NULL) {
@@ -130,6 +136,7 @@ static void add_report(JnReport* sum, const JnReport* one) {
 	sum->backtracks += one->backtracks;
 	sum->minimized += one->minimized;
 	sum->residual = one->residual;
+	sum->seconds_predict += one->seconds_predict;
 }
 
 // The last step ends on the duration; a difference that is only rounding leaves the step as it is.
@@ -139,11 +146,41 @@ static double clip(const JnSim* sim, double dt) {
 }
 
 static JnStatus explain_failure(const JnSim* sim, const JnStep* step, JnStatus outcome) {
+	char reason[256];
+	jn_passes_explain(&sim->passes, sizeof reason, reason);
 	return jn_error(
 		JN_RUN_FAILED,
-		"step %ld at t = %.9g s failed: %s with dt = %.3g s, the smallest step allowed; the last good state "
+		"step %ld at t = %.9g s failed: %s%s with dt = %.3g s, the smallest step allowed; the last good state "
 		"is at t = %.9g s. Try a smaller step.dt, a more robust method (backward_euler), or more step.cuts",
-		sim->steps + 1, sim->start.t, jn_status_name(outcome), step->dt, sim->start.t);
+		sim->steps + 1, sim->start.t, jn_status_name(outcome), reason, step->dt, sim->start.t);
+}
+
+// Predict and correct, in as many rounds as the passes ask for. *edited: the end is no longer the integrator's.
+static JnStatus attempt(JnSim* sim, JnStep* step, bool* edited) {
+	bool again = true;
+	*edited = false;
+	for (int round = 0; again; ++round) {
+		step->report = (JnReport){0};
+		JN_TRY(jn_passes_prepare(&sim->passes, step, round));
+		const double began = jn_seconds();
+		const JnStatus outcome = sim->integrator->type->step(sim->integrator, step);
+		step->report.seconds_predict = jn_seconds() - began;
+		sim->sys->report = &sim->report;
+		add_report(&sim->report, &step->report);
+		if (outcome != JN_OK) return outcome;
+		JN_TRY(jn_passes_correct(&sim->passes, step, round, edited, &again));
+	}
+	return JN_OK;
+}
+
+// History that a method kept of an end that was edited is history of another state.
+static void accept(JnSim* sim, const JnStep* step, bool edited) {
+	if (edited)
+		jn_integrator_reset(sim->integrator);
+	else if (sim->integrator->type->commit != NULL)
+		sim->integrator->type->commit(sim->integrator, step);
+	jn_passes_commit(&sim->passes, step);
+	sim->last_dt = step->dt;
 }
 
 JnStatus jn_sim_step(JnSim* sim) {
@@ -151,20 +188,19 @@ JnStatus jn_sim_step(JnSim* sim) {
 	sim->sys->report = &sim->report;
 	JnVerdict verdict = {0};
 	while (!verdict.accepted) {
+		bool edited;
 		JnStep step = {.sys = sim->sys, .start = &sim->start, .end = &sim->end, .dt = clip(sim, sim->next_dt)};
-		const JnStatus outcome = sim->integrator->type->step(sim->integrator, &step);
-		sim->sys->report = &sim->report;
-		add_report(&sim->report, &step.report);
+		step.order = sim->integrator->type->order;
+		const JnStatus outcome = attempt(sim, &step, &edited);
 		if (outcome < JN_OK) return outcome;
 		if (sim->controller->type->judge(sim->controller, &step, outcome, &verdict) != JN_OK)
 			return explain_failure(sim, &step, outcome);
-		if (!verdict.accepted) {
+		if (verdict.accepted) {
+			accept(sim, &step, edited);
+		} else {
 			++sim->report.rejected;
 			jn_integrator_forget(sim->integrator);
-		} else if (sim->integrator->type->commit != NULL) {
-			sim->integrator->type->commit(sim->integrator, &step);
 		}
-		if (verdict.accepted) sim->last_dt = step.dt;
 		sim->next_dt = verdict.dt;
 	}
 	const JnState swap = sim->start;
@@ -196,6 +232,11 @@ double jn_sim_last_dt(const JnSim* sim) {
 
 const JnReport* jn_sim_last_report(const JnSim* sim) {
 	return &sim->report;
+}
+
+JnPass* const* jn_sim_passes(const JnSim* sim, int* count) {
+	*count = sim->passes.count;
+	return sim->passes.list;
 }
 
 int jn_sim_threads(const JnSim* sim) {

@@ -1,0 +1,152 @@
+// What meets: the surfaces of bodies, the obstacles, and the friction of each pair of contact materials.
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/key.h"
+#include "base/log.h"
+#include "math/vec3.h"
+#include "mesh/boundary.h"
+#include "pass/contact.h"
+
+static const double watched = 0.05; // margin, in mean edges of the finest surface
+
+static JnStatus create_skin(JnContactPass* pass, int index, JnSkin* skin) {
+	const JnBody* body = &pass->model->bodies[index];
+	JnStatus status = JN_OK;
+	if (body->mesh.embedding != NULL) {
+		status = jn_skin_from_embedding(body->mesh.embedding, body->first_node, &pass->arena, skin);
+	} else {
+		int count, *triangles;
+		JN_TRY(jn_mesh_boundary(&body->mesh, &pass->arena, &count, &triangles));
+		for (int i = 0; i < 3 * count; ++i) triangles[i] += body->first_node;
+		status = jn_skin_from_triangles(count, triangles, &pass->arena, skin);
+	}
+	skin->body = index;
+	return status;
+}
+
+static JnStatus create_skins(JnContactPass* pass) {
+	const JnModel* model = pass->model;
+	JN_NEW(&pass->arena, pass->skins, model->body_count);
+	JN_NEW(&pass->arena, pass->skin_of, model->body_count);
+	for (int b = 0; b < model->body_count; ++b) {
+		pass->skin_of[b] = model->bodies[b].contact.active ? pass->skin_count : -1;
+		if (model->bodies[b].contact.active) JN_TRY(create_skin(pass, b, &pass->skins[pass->skin_count++]));
+	}
+	return JN_OK;
+}
+
+static JnStatus list_obstacles(JnContactPass* pass) {
+	const JnModel* model = pass->model;
+	JN_NEW(&pass->arena, pass->obstacles, model->obstacle_count + 1);
+	for (int i = 0; i < model->obstacle_count; ++i) pass->obstacles[i] = model->obstacles[i].shape;
+	return JN_OK;
+}
+
+// ---- friction
+
+typedef struct Names {
+	const char** list;
+	int count;
+} Names;
+
+static int find_name(const Names* names, const char* name) {
+	for (int i = 0; i < names->count; ++i)
+		if (strcmp(names->list[i], name) == 0) return i;
+	return -1;
+}
+
+static int place_name(Names* names, const char* name) {
+	const int known = find_name(names, name);
+	if (known >= 0) return known;
+	names->list[names->count] = name;
+	return names->count++;
+}
+
+static const char* next_name(void* user, int index) {
+	const Names* names = user;
+	return index < names->count ? names->list[index] : NULL;
+}
+
+static JnStatus find_pair_name(const Names* names, const char* name, int pair, const char* key, int* out) {
+	*out = find_name(names, name);
+	if (*out >= 0) return JN_OK;
+	const char* near = jn_suggest(name, next_name, (void*)names);
+	return jn_error(JN_BAD_INPUT, "contact.pairs[%d].%s: nothing has the surface '%.100s'%s%s%s", pair, key, name,
+					near != NULL ? "; did you mean '" : "; name it as `surface` of a body's contact or of an obstacle",
+					near != NULL ? near : "", near != NULL ? "'?" : "");
+}
+
+static JnStatus set_pairs(JnContactPass* pass, const Names* names) {
+	const JnContactPairDef* pairs = pass->def->pairs.data;
+	for (int i = 0; i < pass->def->pairs.count; ++i) {
+		int first, second;
+		JN_TRY(find_pair_name(names, pairs[i].first, i, "first", &first));
+		JN_TRY(find_pair_name(names, pairs[i].second, i, "second", &second));
+		pass->friction[first * names->count + second] = pairs[i].friction;
+		pass->friction[second * names->count + first] = pairs[i].friction;
+	}
+	return JN_OK;
+}
+
+static JnStatus create_friction(JnContactPass* pass) {
+	const JnModel* model = pass->model;
+	Names names = {0};
+	JN_NEW(&pass->arena, names.list, pass->skin_count + model->obstacle_count + 1);
+	JN_NEW(&pass->arena, pass->skin_surface, pass->skin_count + 1);
+	JN_NEW(&pass->arena, pass->obstacle_surface, model->obstacle_count + 1);
+	for (int i = 0; i < pass->skin_count; ++i)
+		pass->skin_surface[i] = place_name(&names, model->bodies[pass->skins[i].body].contact.surface);
+	for (int i = 0; i < model->obstacle_count; ++i)
+		pass->obstacle_surface[i] = place_name(&names, model->obstacles[i].surface);
+	pass->surface_count = names.count;
+	JN_NEW(&pass->arena, pass->friction, names.count * names.count + 1);
+	for (int i = 0; i < names.count * names.count; ++i) pass->friction[i] = pass->def->friction;
+	return set_pairs(pass, &names);
+}
+
+// ---- detector
+
+static double mean_edge(const JnSkin* skin, const double* at) {
+	double sum = 0;
+	for (int i = 0; i < 3 * skin->triangle_count; ++i) {
+		const int next = i % 3 == 2 ? i - 2 : i + 1;
+		sum += vec3_distance(at + 3 * (ptrdiff_t)skin->triangles[i], at + 3 * (ptrdiff_t)skin->triangles[next]);
+	}
+	return skin->triangle_count > 0 ? sum / (3 * skin->triangle_count) : INFINITY;
+}
+
+static JnStatus finest_edge(const JnContactPass* pass, double* edge) {
+	JnArena scratch = {0};
+	JnStatus status = JN_OK;
+	*edge = INFINITY;
+	for (int i = 0; i < pass->skin_count && status == JN_OK; ++i) {
+		double* at = jn_arena_take(&scratch, 3 * (size_t)pass->skins[i].vertex_count, sizeof *at);
+		status = at != NULL ? JN_OK : JN_OUT_OF_MEMORY;
+		if (at == NULL) continue;
+		jn_skin_positions(&pass->skins[i], pass->model->rest, at);
+		*edge = fmin(*edge, mean_edge(&pass->skins[i], at));
+	}
+	jn_arena_free(&scratch);
+	return status;
+}
+
+JnStatus jn_contact_surfaces_create(JnContactPass* pass) {
+	const JnModel* model = pass->model;
+	bool* self;
+	double edge;
+	JN_TRY(create_skins(pass));
+	JN_TRY(list_obstacles(pass));
+	JN_TRY(create_friction(pass));
+	JN_TRY(finest_edge(pass, &edge));
+	pass->margin = isnan(pass->def->margin) ? watched * (isfinite(edge) ? edge : 0) : pass->def->margin;
+	JN_NEW(&pass->arena, self, pass->skin_count + 1);
+	for (int i = 0; i < pass->skin_count; ++i) self[i] = model->bodies[pass->skins[i].body].contact.self;
+	const JnDetectorOptions options = {.threads = model->threads,
+									   .self = self,
+									   .rest = model->rest,
+									   .neighborhood = fmax(2 * pass->margin, isfinite(edge) ? edge : 0)};
+	return jn_detector_create(pass->skin_count, pass->skins, model->obstacle_count, pass->obstacles, &options,
+							  &pass->detector);
+}

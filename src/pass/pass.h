@@ -1,0 +1,33 @@
+/// @file pass.h
+/// What acts on a step beside the integrator: each kind is a row of the list, and a simulation runs those that its
+/// definition asks for.
+#ifndef JN_PASS_PASS_H
+#define JN_PASS_PASS_H
+
+#include "jounce/sim.h"
+
+enum { JN_PASSES_MOST = 8 };
+
+extern const JnPassType* const jn_pass_list[]; ///< NULL at the end, in the order in which they run
+extern const JnPassType jn_pass_contact;
+extern const JnKey jn_contact_keys[]; ///< of JnContactDef
+
+/// The passes of a simulation. All zero is valid and does nothing.
+typedef struct JnPasses {
+	int count;
+	JnPass* list[JN_PASSES_MOST];
+} JnPasses;
+
+/// Build what `def` asks for. On failure nothing is left; a message says why. Free with jn_passes_destroy.
+JnStatus jn_passes_create(const JnSimDef* def, JnModel* model, JnPasses* passes);
+void jn_passes_destroy(JnPasses* passes);
+
+/// The verbs of JnPassType for all of them. *edited and *again are true when some pass says so, and false otherwise.
+JnStatus jn_passes_prepare(JnPasses* passes, const JnStep* step, int round);
+JnStatus jn_passes_correct(JnPasses* passes, JnStep* step, int round, bool* edited, bool* again);
+void jn_passes_commit(JnPasses* passes, const JnStep* step);
+
+/// The first explanation that a pass has, or "".
+void jn_passes_explain(const JnPasses* passes, size_t size, char* text);
+
+#endif
