@@ -99,10 +99,13 @@ static JnStatus read_list(JnKeyReader* reader, const JnKey* key, const JnNode* n
 
 static JnStatus complain_row(const JnKeyReader* reader, const JnKey* key, const JnNode* node) {
 	const JnNames names = {.rows = key->rows};
-	char near[128];
+	char near[128], list[64];
 	jn_names_suggest(names, node->scalar, sizeof near, near);
+	snprintf(list, sizeof list, "%s", key->rows->noun);
+	for (char* c = list; *c != '\0'; c++)
+		if (*c == ' ') *c = '_';
 	return jn_key_error(reader, node, "there is no %s '%.100s'%s%s 'jounce list %ss' shows all", key->rows->noun,
-						node->scalar, near, near[0] != '\0' ? "" : ".", key->rows->noun);
+						node->scalar, near, near[0] != '\0' ? "" : ".", list);
 }
 
 // The row that the node names: by itself as a single word, by its tag entry, or by default. NULL: none is named.

@@ -20,6 +20,10 @@ static void count_step(JnRun* run) {
 	run->end.indefinite += report->indefinite;
 	run->end.rejected += report->rejected;
 	run->end.minimized += report->minimized;
+	run->end.seconds_predict += report->seconds_predict;
+	run->end.seconds_detect += report->seconds_detect;
+	run->end.seconds_factor += report->seconds_factor;
+	run->end.seconds_qp += report->seconds_qp;
 }
 
 static JnStatus write_record(JnRun* run, const double* values, bool is_frame) {
@@ -29,7 +33,9 @@ static JnStatus write_record(JnRun* run, const double* values, bool is_frame) {
 							   .is_frame = is_frame,
 							   .x = state->x,
 							   .v = state->v,
-							   .values = values};
+							   .values = values,
+							   .fields = run->fields};
+	jn_run_find_fields(run);
 	run->frame_is_written = is_frame;
 	run->end.frames += is_frame;
 	run->end.t = state->t;

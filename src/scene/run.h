@@ -17,7 +17,8 @@ typedef struct JnRun {
 	JnRecorders recorders;
 	JnRecordEnd end;
 	JnProbe* probes;
-	double* values; ///< one a column
+	double* values;        ///< one a column
+	const double** fields; ///< one a field
 	double total_at_start;
 	double began;      ///< clock when stepping began [s]
 	double next_frame; ///< time of the next frame that is due [s]
@@ -28,6 +29,9 @@ typedef struct JnRun {
 
 /// Fill run->info: all that stays constant over a run.
 JnStatus jn_run_describe(JnRun* run);
+
+/// Fill run->fields: where the numbers of each field are at present.
+void jn_run_find_fields(JnRun* run);
 
 /// Fill run->values with the row of the present state, and the energy errors of run->end.
 void jn_run_measure(JnRun* run);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "detect/obstacle_surface.h"
 #include "mesh/boundary.h"
 #include "mesh/embed.h"
 #include "model/model.h"
@@ -10,7 +11,7 @@
 #include "scene/run.h"
 #include "solve/blas.h"
 
-// The columns that every run has, in this order; then three for each probe.
+// The columns that every run has, in this order; then those of passes, and three for each probe.
 static const JnColumn fixed_columns[] = {
 	{"step", "", true},
 	{"t", "s", false},
@@ -34,6 +35,58 @@ static const JnColumn fixed_columns[] = {
 };
 enum { FIXED_COLUMNS = sizeof fixed_columns / sizeof *fixed_columns };
 
+static int pass_columns(const JnRun* run) {
+	int passes, count = 0;
+	JnPass* const* list = jn_sim_passes(run->sim, &passes);
+	for (int i = 0; i < passes; ++i) count += list[i]->type->column_count;
+	return count;
+}
+
+static void name_pass_columns(const JnRun* run, JnColumn* columns) {
+	int passes;
+	JnPass* const* list = jn_sim_passes(run->sim, &passes);
+	for (int i = 0; i < passes; ++i)
+		for (int k = 0; k < list[i]->type->column_count; ++k) {
+			const JnPassColumn* column = &list[i]->type->columns[k];
+			*columns++ = (JnColumn){column->name, column->unit, column->is_count};
+		}
+}
+
+static JnStatus name_fields(JnRun* run) {
+	int passes, count = 0;
+	JnPass* const* list = jn_sim_passes(run->sim, &passes);
+	JnField* fields;
+	for (int i = 0; i < passes; ++i) count += list[i]->type->field_count;
+	JN_NEW(&run->arena, fields, count + 1);
+	JN_NEW(&run->arena, run->fields, count + 1);
+	run->info.fields = fields;
+	run->info.field_count = count;
+	for (int i = 0; i < passes; ++i)
+		for (int k = 0; k < list[i]->type->field_count; ++k) {
+			const JnPassField* field = &list[i]->type->fields[k];
+			*fields++ = (JnField){.name = field->name, .unit = field->unit, .components = field->components};
+		}
+	return JN_OK;
+}
+
+void jn_run_find_fields(JnRun* run) {
+	int passes;
+	JnPass* const* list = jn_sim_passes(run->sim, &passes);
+	const double** fields = run->fields;
+	for (int i = 0; i < passes; ++i)
+		for (int k = 0; k < list[i]->type->field_count; ++k) *fields++ = list[i]->type->field(list[i], k);
+}
+
+static double* measure_passes(const JnRun* run, double* values) {
+	int passes;
+	JnPass* const* list = jn_sim_passes(run->sim, &passes);
+	for (int i = 0; i < passes; ++i) {
+		list[i]->type->measure(list[i], values);
+		values += list[i]->type->column_count;
+	}
+	return values;
+}
+
 static JnStatus find_probes(JnRun* run, const JnModel* model) {
 	const JnItems* defs = &run->scene->def.probes;
 	JnPlacing placing;
@@ -49,16 +102,18 @@ static JnStatus find_probes(JnRun* run, const JnModel* model) {
 static JnStatus name_columns(JnRun* run) {
 	const JnItems* probes = &run->scene->def.probes;
 	JnColumn* columns;
-	run->info.column_count = FIXED_COLUMNS + 3 * probes->count;
+	const int first_probe = FIXED_COLUMNS + pass_columns(run);
+	run->info.column_count = first_probe + 3 * probes->count;
 	JN_NEW(&run->arena, columns, run->info.column_count);
 	JN_NEW(&run->arena, run->values, run->info.column_count);
 	memcpy(columns, fixed_columns, sizeof fixed_columns);
+	name_pass_columns(run, columns + FIXED_COLUMNS);
 	for (int i = 0; i < probes->count; ++i) {
 		const JnProbeDef* probe = (const JnProbeDef*)probes->data + i;
 		for (int axis = 0; axis < 3; ++axis) {
 			char name[256];
 			snprintf(name, sizeof name, "probe.%s.%c", probe->name, 'x' + axis);
-			JnColumn* column = &columns[FIXED_COLUMNS + 3 * i + axis];
+			JnColumn* column = &columns[first_probe + 3 * i + axis];
 			*column = (JnColumn){.name = jn_arena_text(&run->arena, name), .unit = "m"};
 			if (column->name == NULL) return JN_OUT_OF_MEMORY;
 		}
@@ -100,6 +155,28 @@ static JnStatus list_bodies(JnRun* run, const JnModel* model) {
 	return JN_OK;
 }
 
+static JnTreeBox box_of(const JnModel* model) {
+	JnTreeBox box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+	for (int k = 0; k < 3 * model->node_count; ++k) {
+		box.low[k % 3] = fmin(box.low[k % 3], model->rest[k]);
+		box.high[k % 3] = fmax(box.high[k % 3], model->rest[k]);
+	}
+	return box;
+}
+
+static JnStatus list_obstacles(JnRun* run, const JnModel* model) {
+	JnRecordObstacle* obstacles;
+	const JnTreeBox box = box_of(model);
+	JN_NEW(&run->arena, obstacles, model->obstacle_count);
+	for (int i = 0; i < model->obstacle_count; ++i) {
+		obstacles[i].name = model->obstacles[i].name;
+		JN_TRY(jn_obstacle_surface(&model->obstacles[i].shape, &box, &run->arena, &obstacles[i].surface));
+	}
+	run->info.obstacle_count = model->obstacle_count;
+	run->info.obstacles = obstacles;
+	return JN_OK;
+}
+
 // The file's text with the overrides as comments at its end.
 static JnStatus annotate_text(JnRun* run) {
 	const JnScene* scene = run->scene;
@@ -134,7 +211,9 @@ JnStatus jn_run_describe(JnRun* run) {
 	run->info.blas = blas;
 	JN_TRY(annotate_text(run));
 	JN_TRY(list_bodies(run, model));
+	JN_TRY(list_obstacles(run, model));
 	JN_TRY(find_probes(run, model));
+	JN_TRY(name_fields(run));
 	return name_columns(run);
 }
 
@@ -167,6 +246,6 @@ void jn_run_measure(JnRun* run) {
 										  e.angular[1],
 										  e.angular[2]};
 	memcpy(run->values, values, sizeof values);
-	for (int i = 0; i < run->scene->def.probes.count; ++i)
-		jn_probe_position(&run->probes[i], state->x, run->values + FIXED_COLUMNS + 3 * i);
+	double* probes = measure_passes(run, run->values + FIXED_COLUMNS);
+	for (int i = 0; i < run->scene->def.probes.count; ++i) jn_probe_position(&run->probes[i], state->x, probes + 3 * i);
 }

@@ -8,6 +8,7 @@
 
 #include "base/key.h"
 #include "base/log.h"
+#include "pass/pass.h"
 #include "scene/place.h"
 #include "scene/probe.h"
 #include "scene/scene.h"
@@ -50,12 +51,24 @@ const JnKey jn_scene_keys[] = {
 	 .keys = jn_body_keys,
 	 .size = sizeof(JnBodyDef),
 	 .meaning = "the deformable bodies"},
+	{.name = "obstacles",
+	 .kind = JN_LIST,
+	 .field = offsetof(JnSceneDef, sim.model.obstacles),
+	 .keys = jn_obstacle_keys,
+	 .size = sizeof(JnObstacleDef),
+	 .meaning = "rigid things that never move, such as a floor"},
 	{.name = "wind",
 	 .kind = JN_OPTIONAL,
 	 .field = offsetof(JnSceneDef, sim.model.wind),
 	 .keys = jn_wind_keys,
 	 .size = sizeof(JnWindDef),
 	 .meaning = "air that moves past the bodies and loads their surfaces; without it there is no air"},
+	{.name = "contact",
+	 .kind = JN_OPTIONAL,
+	 .field = offsetof(JnSceneDef, sim.contact),
+	 .keys = jn_contact_keys,
+	 .size = sizeof(JnContactDef),
+	 .meaning = "how bodies meet each other and the obstacles; without it they pass through"},
 	JN_SIM_KEY_ROWS(JnSceneDef, sim.),
 	{.name = "solver",
 	 .kind = JN_VARIANT,
@@ -99,6 +112,10 @@ static const char* body_name(const JnItems* items, int index) {
 	return ((const JnBodyDef*)items->data)[index].name;
 }
 
+static const char* obstacle_name(const JnItems* items, int index) {
+	return ((const JnObstacleDef*)items->data)[index].name;
+}
+
 static const char* probe_name(const JnItems* items, int index) {
 	return ((const JnProbeDef*)items->data)[index].name;
 }
@@ -120,6 +137,7 @@ static JnStatus check_list(const char* list, const JnItems* items, const char* (
 static JnStatus check_names(const JnSceneDef* def) {
 	JN_TRY(check_name("name", def->name));
 	JN_TRY(check_list("bodies", &def->sim.model.bodies, body_name));
+	JN_TRY(check_list("obstacles", &def->sim.model.obstacles, obstacle_name));
 	return check_list("probes", &def->probes, probe_name);
 }
 
