@@ -25,6 +25,13 @@ static void print_bodies(const JnModelDef* def, const JnModel* model) {
 		   model->total_mass, model->held_count, 3 * model->node_count);
 }
 
+static void print_obstacles(const JnModel* model) {
+	for (int i = 0; i < model->obstacle_count; ++i) {
+		const JnModelObstacle* obstacle = &model->obstacles[i];
+		printf("  obstacle    %s: %s, surface %s\n", obstacle->name, obstacle->shape.type->row.name, obstacle->surface);
+	}
+}
+
 // The first step is the only one that every controller knows beforehand; `fixed` keeps to it.
 static JnStatus print_steps(const JnSimDef* def) {
 	JnController* controller = jn_controller_create(&def->step);
@@ -43,6 +50,7 @@ static JnStatus print_findings(const SceneOptions* options, const JnSceneDef* de
 	printf("%s: ok\n  scene       %s%s%s\n", options->scene, def->name, def->description != NULL ? ": " : "",
 		   def->description != NULL ? def->description : "");
 	print_bodies(&def->sim.model, model);
+	print_obstacles(model);
 	printf("  integrator  %s\n", def->sim.integrator.row->name);
 	return print_steps(&def->sim);
 }

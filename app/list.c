@@ -6,15 +6,18 @@
 #include "app.h"
 #include "base/key.h"
 #include "control/controller.h"
+#include "detect/obstacle.h"
 #include "force/kernel.h"
 #include "integrate/integrator.h"
 #include "integrate/properties.h"
 #include "mesh/shape/shape.h"
 #include "model/motion.h"
+#include "solve/qp.h"
 #include "solve/solver.h"
 
 static const char help[] =
-	"usage: jounce list [integrators|materials|shapes|elements|motions|solvers|controllers] [--json]\n\n"
+	"usage: jounce list [integrators|materials|shapes|elements|obstacles|motions|solvers|contact_solvers|\n"
+	"                    controllers] [--json]\n\n"
 	"Without a word: all of them. Properties of integrators follow from their coefficients, or are measured on an\n"
 	"undamped oscillator:\n"
 	"  solves   linear or nonlinear systems a step     A, L    A-stable, L-stable     SA  stiffly accurate\n"
@@ -114,7 +117,8 @@ typedef struct Catalogue {
 static const Catalogue catalogues[] = {
 	{"integrators", &jn_integrator_list}, {"materials", &jn_law_list},
 	{"shapes", &jn_shape_list},           {"elements", NULL},
-	{"motions", &jn_motion_list},         {"solvers", &jn_solver_list},
+	{"obstacles", &jn_obstacle_list},     {"motions", &jn_motion_list},
+	{"solvers", &jn_solver_list},         {"contact_solvers", &jn_qp_list},
 	{"controllers", &jn_controller_list},
 };
 enum { CATALOGUES = sizeof catalogues / sizeof *catalogues };

@@ -17,8 +17,8 @@ static const char help[] =
 	"  --set key=value   override any key: --set integrator.method=sdirk2 --set step.dt=33ms\n"
 	"  --threads N       default: as many as there are processors\n"
 	"  -q, --quiet       no progress, no summary\n\n"
-	"Writes run.h5, run.xdmf and surface.xdmf (ParaView), series.csv, summary.json and plots/, over those of an "
-	"earlier run.\n"
+	"Writes run.h5, run.xdmf and surface.xdmf (ParaView; obstacles.xdmf too, if there are any), series.csv,\n"
+	"summary.json and plots/, over those of an earlier run.\n"
 	"Ctrl-C finishes the step and completes the files (exit status 0, outcome \"interrupted\"); a second one ends at "
 	"once.";
 

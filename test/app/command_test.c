@@ -138,10 +138,10 @@ static void unknown_command_gets_a_suggestion(void** state) {
 
 static void each_list_is_text_and_json(void** state) {
 	(void)state;
-	static const char* const lists[][2] = {{"integrators", "sdirk2"}, {"materials", "stable_neo_hookean"},
-										   {"shapes", "box"},         {"elements", "tet10"},
-										   {"motions", "keyframes"},  {"solvers", "direct"},
-										   {"controllers", "fixed"}};
+	static const char* const lists[][2] = {
+		{"integrators", "sdirk2"}, {"obstacles", "capsule"}, {"materials", "stable_neo_hookean"},
+		{"shapes", "box"},         {"elements", "tet10"},    {"motions", "keyframes"},
+		{"solvers", "direct"},     {"controllers", "fixed"}};
 	for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i) {
 		char condition[128];
 		Outcome text = RUN(0, "list", lists[i][0]), json = RUN(0, "list", lists[i][0], "--json");
@@ -160,7 +160,7 @@ static void all_lists_are_one_json_object(void** state) {
 	(void)state;
 	Outcome outcome = RUN(0, "list", "--json");
 	file_write(path_join(folder, "list.json"), outcome.out);
-	expect_json("list.json", "len(d)==7 and all(len(rows)>0 for rows in d.values())");
+	expect_json("list.json", "len(d)==9 and all(len(rows)>0 for rows in d.values())");
 	outcome_free(&outcome);
 }
 
