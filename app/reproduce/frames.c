@@ -37,6 +37,24 @@ static JnStatus read_surface(Frames* frames) {
 	return JN_OK;
 }
 
+static JnStatus read_obstacles(Frames* frames) {
+	const hid_t file = frames->file;
+	JnSurface* surface = &frames->obstacles;
+	if (H5Lexists(file, "/topology/obstacle_points", H5P_DEFAULT) <= 0) return JN_OK;
+	const hssize_t points = recording_file_measure(file, "/topology/obstacle_points");
+	const hssize_t corners = recording_file_measure(file, "/topology/obstacle_triangles");
+	if (points < 0 || corners < 0) return JN_IO_FAILED;
+	surface->node_count = (int)(points / 3);
+	surface->triangle_count = (int)(corners / 3);
+	JN_NEW(&frames->arena, surface->nodes, points + 1);
+	JN_NEW(&frames->arena, surface->triangles, corners + 1);
+	JN_TRY(recording_file_array(file, "/topology/obstacle_points", H5T_NATIVE_DOUBLE, points, surface->nodes));
+	JN_TRY(recording_file_array(file, "/topology/obstacle_triangles", H5T_NATIVE_INT, corners, surface->triangles));
+	for (hssize_t i = 0; i < corners; ++i)
+		if (surface->triangles[i] < 0 || surface->triangles[i] >= surface->node_count) return JN_IO_FAILED;
+	return JN_OK;
+}
+
 static JnStatus read_file(hid_t file, void* user) {
 	Frames* frames = user;
 	const hssize_t numbers = recording_file_measure(file, "/mesh/nodes");
@@ -45,7 +63,8 @@ static JnStatus read_file(hid_t file, void* user) {
 	JN_NEW(&frames->arena, frames->rest, numbers);
 	JN_TRY(recording_file_array(file, "/mesh/nodes", H5T_NATIVE_DOUBLE, numbers, frames->rest));
 	JN_TRY(read_times(frames));
-	return read_surface(frames);
+	JN_TRY(read_surface(frames));
+	return read_obstacles(frames);
 }
 
 JnStatus frames_open(const char* folder, Frames* frames) {

@@ -8,6 +8,7 @@
 #include <hdf5.h>
 
 #include "base/arena.h"
+#include "mesh/surface.h"
 
 typedef struct Frames {
 	JnArena arena;
@@ -19,8 +20,9 @@ typedef struct Frames {
 	int point_count;
 	bool are_nodes; ///< the points are the nodes
 	int triangle_count;
-	int* triangles; ///< 3 * triangle_count points, outward
-	int* bodies;    ///< triangle_count: which body, from 0
+	int* triangles;      ///< 3 * triangle_count points, outward
+	int* bodies;         ///< triangle_count: which body, from 0
+	JnSurface obstacles; ///< all of them, facing out of what is solid; empty when there are none
 } Frames;
 
 /// Open run.h5 in `folder`. JN_IO_FAILED after a message. Close with frames_close in either case.

@@ -12,29 +12,41 @@
 
 enum { TITLE_HEIGHT = 34, GAP = 8 };
 
+static JnStatus copy_surface(const JnSurface* from, JnArena* arena, JnSurface* out) {
+	const size_t numbers = 3 * (size_t)from->node_count, corners = 3 * (size_t)from->triangle_count;
+	*out = *from;
+	JN_NEW(arena, out->nodes, numbers + 1);
+	JN_NEW(arena, out->triangles, corners + 1);
+	if (from->nodes != NULL) memcpy(out->nodes, from->nodes, numbers * sizeof *out->nodes);
+	if (corners > 0) memcpy(out->triangles, from->triangles, corners * sizeof *out->triangles);
+	return JN_OK;
+}
+
+static JnStatus fill_panel(const Frames* frames, double t, const char* title, JnArena* arena, Panel* panel) {
+	const JnSurface bodies = {.node_count = frames->point_count,
+							  .triangle_count = frames->triangle_count,
+							  .triangles = frames->triangles}; // its nodes are those of the frame
+	int* colours;
+	JN_NEW(arena, colours, frames->triangle_count + 1);
+	JN_TRY(copy_surface(&bodies, arena, &panel->surface));
+	JN_TRY(copy_surface(&frames->obstacles, arena, &panel->obstacles));
+	JN_TRY(frames_read(frames, frames_nearest(frames, t), panel->surface.nodes));
+	memcpy(colours, frames->bodies, (size_t)frames->triangle_count * sizeof *colours);
+	panel->bodies = colours;
+	snprintf(panel->title, sizeof panel->title, "%s", title);
+	return JN_OK;
+}
+
 JnStatus picture_add(Picture* picture, const char* folder, double t, const char* title) {
 	Frames frames;
+	Panel panel = {0};
 	JnStatus status = frames_open(folder, &frames);
 	if (status == JN_OK && picture->count == PICTURE_MOST_PANELS)
 		status = jn_error(JN_BAD_INPUT, "%s: more than %d panels", picture->name, PICTURE_MOST_PANELS);
-	const size_t triangles = (size_t)frames.triangle_count;
-	double* points =
-		status == JN_OK ? jn_arena_take(&picture->arena, (size_t)frames.point_count, 3 * sizeof *points) : NULL;
-	int* corners = points != NULL ? jn_arena_take(&picture->arena, triangles + 1, 3 * sizeof *corners) : NULL;
-	int* bodies = corners != NULL ? jn_arena_take(&picture->arena, triangles + 1, sizeof *bodies) : NULL;
-	if (status == JN_OK && bodies == NULL) status = JN_OUT_OF_MEMORY;
-	if (status == JN_OK) status = frames_read(&frames, frames_nearest(&frames, t), points);
-	if (status == JN_OK) {
-		memcpy(corners, frames.triangles, 3 * triangles * sizeof *corners);
-		memcpy(bodies, frames.bodies, triangles * sizeof *bodies);
-		Panel* panel = &picture->panels[picture->count++];
-		*panel = (Panel){.points = points,
-						 .point_count = frames.point_count,
-						 .triangle_count = frames.triangle_count,
-						 .triangles = corners,
-						 .bodies = bodies};
-		snprintf(panel->title, sizeof panel->title, "%s", title);
-	}
+	if (status == JN_OK) status = fill_panel(&frames, t, title, &picture->arena, &panel);
+	panel.paint_count = picture->paint_count;
+	panel.paints = picture->paints;
+	if (status == JN_OK) picture->panels[picture->count++] = panel;
 	frames_close(&frames);
 	return status;
 }

@@ -5,14 +5,27 @@
 
 #include "reproduce/frames.h"
 
+/// Bodies that are given none take the first four by turns.
+typedef enum PaintName {
+	PAINT_ORANGE,
+	PAINT_BLUE,
+	PAINT_GREEN,
+	PAINT_GREY,
+	PAINT_YELLOW,
+	PAINT_RED,
+	PAINT_TEAL,
+	PAINT_VIOLET,
+	PAINT_OLIVE,
+} PaintName;
+
 /// One view of a frame.
 typedef struct Panel {
 	char title[96];
-	const double* points; ///< 3 numbers a point [m]
-	int point_count;
-	int triangle_count;
-	const int* triangles; ///< 3 * triangle_count
-	const int* bodies;    ///< triangle_count numbers that choose colours
+	JnSurface surface; ///< of all bodies
+	const int* bodies; ///< for each triangle of it, the number of its body
+	int paint_count;
+	const PaintName* paints; ///< one for each of the first bodies
+	JnSurface obstacles;     ///< drawn in light grey, and without a say in the view
 } Panel;
 
 typedef struct Camera {
@@ -25,7 +38,10 @@ enum { PICTURE_MOST_PANELS = 12 };
 typedef struct Picture {
 	const char* name; ///< of the files: name.png, name.gnuplot, name.rgb
 	Camera camera;
-	int columns;       ///< panels side by side
+	int columns;     ///< panels side by side
+	int focus;       ///< the first bodies, so many, that the view has in it; 0: all
+	int paint_count; ///< set before panels are added
+	const PaintName* paints;
 	int width, height; ///< of a panel [pixels]
 	int count;
 	Panel panels[PICTURE_MOST_PANELS];

@@ -1,30 +1,37 @@
 // Each panel is drawn at twice its size and averaged. A corner of a triangle is lit by the mean normal of the triangles
-// around it, or by its own where the two are far apart (an edge).
+// around it, or by its own where the two are far apart (an edge). Obstacles may be of any size, and the view is that of
+// the bodies: so they are seen from outside only, cut into pieces as large as the view, and fade away around it.
 #include "reproduce/raster.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "math/vec3.h"
+#include "reproduce/canvas.h"
 
-enum { FINER = 2, COLOURS = 4 };
+enum { TURNS = 4 }; // paints of bodies that are given none
 
-static const double edge_cosine = 0.72; // beyond some 44 degrees an edge is shown; on those of a box it is 45
-static const double colours[COLOURS][3] = {
-	{0.93, 0.45, 0.20}, {0.20, 0.52, 0.78}, {0.30, 0.66, 0.42}, {0.72, 0.72, 0.74}};
-static const double lights[2][4] = {{-0.45, 0.65, 0.61, 0.72},
-									{0.75, 0.05, 0.66, 0.30}}; // direction in view axes, strength
+// Beyond these angles, some 44 and 18 degrees, an edge is shown. On those of a box of even cells it is 45; where only
+// its corners have normals, as in an obstacle, they lean to its larger sides.
+static const double body_edge = 0.72, obstacle_edge = 0.95;
+static const Paint body_paints[] = {
+	[PAINT_ORANGE] = {{0.93, 0.45, 0.20}, 0.35}, [PAINT_BLUE] = {{0.20, 0.52, 0.78}, 0.35},
+	[PAINT_GREEN] = {{0.30, 0.66, 0.42}, 0.35},  [PAINT_GREY] = {{0.72, 0.72, 0.74}, 0.35},
+	[PAINT_YELLOW] = {{1.00, 0.80, 0.10}, 0.35}, [PAINT_RED] = {{0.86, 0.22, 0.24}, 0.35},
+	[PAINT_TEAL] = {{0.16, 0.62, 0.64}, 0.20},   [PAINT_VIOLET] = {{0.52, 0.40, 0.72}, 0.20},
+	[PAINT_OLIVE] = {{0.55, 0.60, 0.36}, 0.25}};
+static const Paint obstacle_paint = {{0.88, 0.88, 0.88}, 0};
 
-typedef struct Corner {
-	double x, y, depth; // pixels, pixels, metres towards the camera
-	double normal[3];   // in view axes
-} Corner;
+// A corner of a triangle before it is projected.
+typedef struct Vertex {
+	double at[3];     // in view axes, from the middle of the view [m]
+	double normal[3]; // in view axes
+} Vertex;
 
-typedef struct Canvas {
-	int width, height;
-	float* depth;
-	float* colour; // 3 a pixel
-} Canvas;
+// How far around the middle of the view obstacles are seen: all of them up to `inner`, none beyond `outer` [m].
+typedef struct Fading {
+	double inner, outer;
+} Fading;
 
 static void to_axes(const View* view, const double p[3], double out[3]) {
 	out[0] = vec3_dot(p, view->right);
@@ -37,9 +44,11 @@ static void to_axes(const View* view, const double p[3], double out[3]) {
 static void bound(const Picture* picture, const View* view, double low[3], double high[3]) {
 	for (int i = 0; i < 3; ++i) low[i] = INFINITY, high[i] = -INFINITY;
 	for (int p = 0; p < picture->count; ++p)
-		for (int i = 0; i < 3 * picture->panels[p].triangle_count; ++i) {
+		for (int i = 0; i < 3 * picture->panels[p].surface.triangle_count; ++i) {
+			const JnSurface* surface = &picture->panels[p].surface;
+			if (picture->focus > 0 && picture->panels[p].bodies[i / 3] >= picture->focus) continue;
 			double at[3];
-			to_axes(view, picture->panels[p].points + 3 * (size_t)picture->panels[p].triangles[i], at);
+			to_axes(view, surface->nodes + 3 * (size_t)surface->triangles[i], at);
 			for (int c = 0; c < 3; ++c) {
 				low[c] = fmin(low[c], at[c]);
 				high[c] = fmax(high[c], at[c]);
@@ -51,8 +60,8 @@ View raster_view(const Picture* picture) {
 	const double degree = acos(-1.0) / 180, world_up[3] = {0, 1, 0};
 	const double a = picture->camera.azimuth * degree, e = picture->camera.elevation * degree;
 	View view = {.back = {sin(a) * cos(e), sin(e), cos(a) * cos(e)},
-				 .width = FINER * picture->width,
-				 .height = FINER * picture->height};
+				 .width = CANVAS_FINER * picture->width,
+				 .height = CANVAS_FINER * picture->height};
 	double low[3], high[3];
 	vec3_cross(world_up, view.back, view.right);
 	vec3_normalize(view.right);
@@ -62,131 +71,162 @@ View raster_view(const Picture* picture) {
 	for (int i = 0; i < 3; ++i) view.middle[i] = (low[i] + high[i]) / 2;
 	view.distance = 3 * fmax(fmax(wide, tall), high[2] - low[2]);
 	const double nearer = 1 - (high[2] - view.middle[2]) / view.distance; // the front is drawn larger by 1 / nearer
-	view.scale = 0.94 * nearer * fmin(view.width / wide, view.height / tall);
+	const double filled = picture->focus > 0 ? 0.72 : 0.94;               // others are seen around those in focus
+	view.scale = filled * nearer * fmin(view.width / wide, view.height / tall);
 	return view;
 }
 
 // ---- geometry ----
 
-static void project(const View* view, const double p[3], Corner* corner) {
-	double at[3];
-	to_axes(view, p, at);
-	for (int i = 0; i < 3; ++i) at[i] -= view->middle[i];
-	const double scale = view->scale / (1 - at[2] / view->distance);
-	*corner = (Corner){.x = view->width / 2.0 + scale * at[0], .y = view->height / 2.0 - scale * at[1], .depth = at[2]};
-}
-
 // Twice the area times the outward normal.
-static void face_normal(const Panel* panel, int triangle, double out[3]) {
-	const int* t = panel->triangles + 3 * (size_t)triangle;
-	double edges[2][3];
-	for (int i = 0; i < 3; ++i) {
-		const double start = panel->points[3 * (size_t)t[0] + (size_t)i];
-		edges[0][i] = panel->points[3 * (size_t)t[1] + (size_t)i] - start;
-		edges[1][i] = panel->points[3 * (size_t)t[2] + (size_t)i] - start;
-	}
-	vec3_cross(edges[0], edges[1], out);
+static void face_normal(const JnSurface* surface, int triangle, double out[3]) {
+	const int* t = surface->triangles + 3 * (size_t)triangle;
+	vec3_triangle(surface->nodes + 3 * (size_t)t[0], surface->nodes + 3 * (size_t)t[1],
+				  surface->nodes + 3 * (size_t)t[2], out);
 }
 
-static void add_normals(const Panel* panel, double* normals) {
-	for (int i = 0; i < panel->triangle_count; ++i) {
+static void add_normals(const JnSurface* surface, double* normals) {
+	for (int i = 0; i < surface->triangle_count; ++i) {
 		double normal[3];
-		face_normal(panel, i, normal);
+		face_normal(surface, i, normal);
 		for (int c = 0; c < 9; ++c)
-			normals[3 * (size_t)panel->triangles[3 * i + c / 3] + (size_t)(c % 3)] += normal[c % 3];
+			normals[3 * (size_t)surface->triangles[3 * i + c / 3] + (size_t)(c % 3)] += normal[c % 3];
 	}
-	for (int i = 0; i < panel->point_count; ++i) vec3_normalize(normals + 3 * (size_t)i);
+	for (int i = 0; i < surface->node_count; ++i) vec3_normalize(normals + 3 * (size_t)i);
 }
 
-// ---- light ----
-
-static void shade(const double raw[3], int body, float out[3]) {
-	double normal[3] = {raw[0], raw[1], raw[2]};
-	vec3_normalize(normal);
-	const double side = normal[2] < 0 ? -1 : 1; // sheets have two sides, and inverted elements show their inside
-	double diffuse = 0.26, gloss = 0;
-	for (int i = 0; i < 3; ++i) normal[i] *= side;
-	for (int l = 0; l < 2; ++l) {
-		double half[3] = {lights[l][0], lights[l][1], lights[l][2] + 1};
-		vec3_normalize(half);
-		diffuse += lights[l][3] * fmax(vec3_dot(normal, lights[l]), 0);
-		gloss += 0.35 * lights[l][3] * pow(fmax(vec3_dot(normal, half), 0), 40);
-	}
-	for (int i = 0; i < 3; ++i) out[i] = (float)fmin(diffuse * colours[body % COLOURS][i] + gloss, 1);
-}
-
-static double twice_area(const Corner* a, const Corner* b, double x, double y) {
-	return (b->x - a->x) * (y - a->y) - (b->y - a->y) * (x - a->x);
-}
-
-static void fill_pixel(Canvas* canvas, const Corner c[3], const double w[3], int body, int x, int y) {
-	const size_t at = (size_t)y * (size_t)canvas->width + (size_t)x;
-	const float depth = (float)(w[0] * c[0].depth + w[1] * c[1].depth + w[2] * c[2].depth);
-	if (depth <= canvas->depth[at]) return;
-	double normal[3];
-	for (int i = 0; i < 3; ++i) normal[i] = w[0] * c[0].normal[i] + w[1] * c[1].normal[i] + w[2] * c[2].normal[i];
-	canvas->depth[at] = depth;
-	shade(normal, body, canvas->colour + 3 * at);
-}
-
-static void fill(Canvas* canvas, const Corner c[3], int body) {
-	const double area = twice_area(&c[0], &c[1], c[2].x, c[2].y);
-	if (!(fabs(area) > 1e-9)) return;
-	const int left = (int)fmax(floor(fmin(c[0].x, fmin(c[1].x, c[2].x))), 0);
-	const int right = (int)fmin(ceil(fmax(c[0].x, fmax(c[1].x, c[2].x))), canvas->width - 1);
-	const int top = (int)fmax(floor(fmin(c[0].y, fmin(c[1].y, c[2].y))), 0);
-	const int bottom = (int)fmin(ceil(fmax(c[0].y, fmax(c[1].y, c[2].y))), canvas->height - 1);
-	for (int y = top; y <= bottom; ++y)
-		for (int x = left; x <= right; ++x) {
-			const double px = x + 0.5, py = y + 0.5;
-			const double w[3] = {twice_area(&c[1], &c[2], px, py) / area, twice_area(&c[2], &c[0], px, py) / area,
-								 twice_area(&c[0], &c[1], px, py) / area};
-			if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) fill_pixel(canvas, c, w, body, x, y);
-		}
-}
-
-static void draw_triangle(Canvas* canvas, const Panel* panel, const View* view, const double* normals, int triangle) {
-	Corner corners[3];
+static void place_triangle(const JnSurface* surface, const View* view, const double* normals, double edge, int triangle,
+						   Vertex vertices[3]) {
 	double own[3];
-	face_normal(panel, triangle, own);
+	face_normal(surface, triangle, own);
 	vec3_normalize(own);
 	for (int i = 0; i < 3; ++i) {
-		const size_t node = (size_t)panel->triangles[3 * triangle + i];
-		project(view, panel->points + 3 * node, &corners[i]);
+		const size_t node = (size_t)surface->triangles[3 * triangle + i];
 		const double* smooth = normals + 3 * node;
-		to_axes(view, vec3_dot(smooth, own) > edge_cosine ? smooth : own, corners[i].normal);
+		to_axes(view, surface->nodes + 3 * node, vertices[i].at);
+		for (int c = 0; c < 3; ++c) vertices[i].at[c] -= view->middle[c];
+		to_axes(view, vec3_dot(smooth, own) > edge ? smooth : own, vertices[i].normal);
 	}
-	fill(canvas, corners, panel->bodies[triangle]);
 }
 
-// The mean of the finer pixels.
-static void reduce(const Canvas* canvas, int stride, unsigned char* pixels) {
-	for (int y = 0; y < canvas->height / FINER; ++y)
-		for (int x = 0; x < canvas->width / FINER; ++x)
-			for (int c = 0; c < 3; ++c) {
-				float sum = 0;
-				for (int i = 0; i < FINER * FINER; ++i) {
-					const int fine_x = FINER * x + i % FINER, fine_y = FINER * y + i / FINER;
-					sum += canvas->colour[3 * ((size_t)fine_y * (size_t)canvas->width + (size_t)fine_x) + (size_t)c];
-				}
-				pixels[3 * ((size_t)y * (size_t)stride + (size_t)x) + (size_t)c] =
-					(unsigned char)(255 * sum / (FINER * FINER) + 0.5F);
-			}
+static Corner project(const View* view, const Vertex* vertex, double cover) {
+	const double scale = view->scale / (1 - vertex->at[2] / view->distance);
+	Corner corner = {.x = view->width / 2.0 + scale * vertex->at[0],
+					 .y = view->height / 2.0 - scale * vertex->at[1],
+					 .depth = vertex->at[2],
+					 .cover = cover};
+	memcpy(corner.normal, vertex->normal, sizeof corner.normal);
+	return corner;
+}
+
+// At the camera or behind it, as bodies out of focus may be.
+static bool is_behind(const View* view, const Vertex v[3]) {
+	return fmax(v[0].at[2], fmax(v[1].at[2], v[2].at[2])) > 0.8 * view->distance;
+}
+
+static const Paint* paint_of(const Panel* panel, int triangle) {
+	const int body = panel->bodies[triangle];
+	return &body_paints[body < panel->paint_count ? (int)panel->paints[body] : body % TURNS];
+}
+
+static void draw_bodies(Canvas* canvas, const Panel* panel, const View* view, const double* normals) {
+	for (int i = 0; i < panel->surface.triangle_count; ++i) {
+		Vertex vertices[3];
+		Corner corners[3];
+		place_triangle(&panel->surface, view, normals, body_edge, i, vertices);
+		if (is_behind(view, vertices)) continue;
+		for (int k = 0; k < 3; ++k) corners[k] = project(view, &vertices[k], 1);
+		canvas_fill(canvas, corners, paint_of(panel, i));
+	}
+}
+
+// ---- obstacles ----
+
+static Fading fading_of(const View* view) {
+	const double half = fmax(view->width, view->height) / (2 * view->scale);
+	const double outer = fmin(1.8 * half, 0.6 * view->distance); // well before the camera
+	return (Fading){.inner = outer / 2, .outer = outer};
+}
+
+static double cover_at(const Fading* fading, const double at[3]) {
+	const double share = (fading->outer - vec3_length(at)) / (fading->outer - fading->inner);
+	const double s = fmax(0, fmin(1, share));
+	return s * s * (3 - 2 * s);
+}
+
+// No point of the triangle is farther from its middle than the farthest corner.
+static bool is_out_of_sight(const Fading* fading, const Vertex v[3]) {
+	double middle[3], radius = 0;
+	for (int c = 0; c < 3; ++c) middle[c] = (v[0].at[c] + v[1].at[c] + v[2].at[c]) / 3;
+	for (int i = 0; i < 3; ++i) radius = fmax(radius, vec3_distance(middle, v[i].at));
+	return vec3_length(middle) - radius > fading->outer;
+}
+
+static Vertex between(const Vertex* a, const Vertex* b) {
+	Vertex middle;
+	for (int c = 0; c < 3; ++c) {
+		middle.at[c] = (a->at[c] + b->at[c]) / 2;
+		middle.normal[c] = (a->normal[c] + b->normal[c]) / 2;
+	}
+	return middle;
+}
+
+// Halve the longest edge until the pieces are small against the fading. A piece of a huge triangle that is out of sight
+// goes at once, so that few are left.
+static void draw_piece(Canvas* canvas, const View* view, const Fading* fading, const Vertex v[3]) {
+	if (is_out_of_sight(fading, v)) return;
+	int longest = 0;
+	double length = 0;
+	for (int i = 0; i < 3; ++i) {
+		const double edge = vec3_distance(v[i].at, v[(i + 1) % 3].at);
+		if (edge > length) length = edge, longest = i;
+	}
+	if (length > fading->outer / 12) {
+		const Vertex *a = &v[longest], *b = &v[(longest + 1) % 3], *c = &v[(longest + 2) % 3], middle = between(a, b);
+		draw_piece(canvas, view, fading, (Vertex[3]){*a, middle, *c});
+		draw_piece(canvas, view, fading, (Vertex[3]){middle, *b, *c});
+		return;
+	}
+	Corner corners[3];
+	for (int i = 0; i < 3; ++i) corners[i] = project(view, &v[i], cover_at(fading, v[i].at));
+	canvas_fill(canvas, corners, &obstacle_paint);
+}
+
+static bool faces_camera(const View* view, const Vertex v[3]) {
+	double area[3];
+	vec3_triangle(v[0].at, v[1].at, v[2].at, area);
+	const double to_camera[3] = {-v[0].at[0], -v[0].at[1], view->distance - v[0].at[2]};
+	return vec3_dot(area, to_camera) > 0;
+}
+
+// After the bodies, as they fade into what is behind them.
+static void draw_obstacles(Canvas* canvas, const Panel* panel, const View* view, const double* normals) {
+	const Fading fading = fading_of(view);
+	for (int i = 0; i < panel->obstacles.triangle_count; ++i) {
+		Vertex vertices[3];
+		place_triangle(&panel->obstacles, view, normals, obstacle_edge, i, vertices);
+		if (faces_camera(view, vertices)) draw_piece(canvas, view, &fading, vertices);
+	}
 }
 
 JnStatus raster_panel(const Panel* panel, const View* view, int stride, unsigned char* pixels) {
 	JnArena arena = {0};
 	const size_t size = (size_t)view->width * (size_t)view->height;
+	const size_t points = (size_t)panel->surface.node_count, others = (size_t)panel->obstacles.node_count;
 	Canvas canvas = {.width = view->width, .height = view->height};
 	canvas.depth = jn_arena_take(&arena, size, sizeof *canvas.depth);
 	canvas.colour = jn_arena_take(&arena, size, 3 * sizeof *canvas.colour);
-	double* normals = jn_arena_take(&arena, (size_t)panel->point_count, 3 * sizeof *normals);
+	double* normals = jn_arena_take(&arena, points + others, 3 * sizeof *normals);
 	const bool has_room = canvas.depth != NULL && canvas.colour != NULL && normals != NULL;
 	for (size_t i = 0; has_room && i < size; ++i) canvas.depth[i] = -INFINITY;
 	for (size_t i = 0; has_room && i < 3 * size; ++i) canvas.colour[i] = 0.965F;
-	if (has_room) add_normals(panel, normals);
-	for (int i = 0; has_room && i < panel->triangle_count; ++i) draw_triangle(&canvas, panel, view, normals, i);
-	if (has_room) reduce(&canvas, stride, pixels);
+	if (has_room) {
+		add_normals(&panel->surface, normals);
+		add_normals(&panel->obstacles, normals + 3 * points);
+		draw_bodies(&canvas, panel, view, normals);
+		draw_obstacles(&canvas, panel, view, normals + 3 * points);
+		canvas_reduce(&canvas, stride, pixels);
+	}
 	jn_arena_free(&arena);
 	return has_room ? JN_OK : JN_OUT_OF_MEMORY;
 }

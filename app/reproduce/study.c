@@ -12,7 +12,7 @@
 #include "compare_files.h"
 #include "compare_recording.h"
 
-enum { MOST_CASES = 512, MOST_SETS = 24 };
+enum { MOST_CASES = 512, MOST_SETS = 64 };
 
 static const char* join(JnArena* arena, const char* folder, const char* name) {
 	char path[JN_PATH_SIZE];

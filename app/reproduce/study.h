@@ -40,7 +40,8 @@ struct Study {
 	JnStatus (*report)(StudyRun* run, Page* page);    ///< tables, pictures and words from what the cases left
 };
 
-extern const Study study_ho_fig3, study_ho_fig4, study_ho_fig5, study_ho_fig6, study_ho_fig7, study_ho_table1;
+extern const Study study_ho_fig1, study_ho_fig3, study_ho_fig4, study_ho_fig5, study_ho_fig6, study_ho_fig7,
+	study_ho_fig8, study_ho_table1;
 extern const Study* const study_list[]; ///< all of these, and NULL at the end
 
 /// Add a case: `scene` is a file in the folder of scenes, `name` its folder, `label` for people, `steps` what it costs.
