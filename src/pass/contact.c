@@ -65,6 +65,7 @@ static bool has_changed(const JnContactPass* pass, const double* force) {
 static JnStatus correct(JnPass* base, JnStep* step, int round, bool* edited, bool* again) {
 	JnContactPass* pass = of(base);
 	pass->has_failed = false;
+	pass->passed = 0;
 	pass->tally = (JnContactTally){.rounds = round + 1};
 	JN_TRY(jn_contact_correct(pass, step));
 	find_forces(pass, step->dt, pass->force);
@@ -110,9 +111,14 @@ static void explain(const JnPass* base, size_t size, char* text) {
 	if (!pass->has_failed) return;
 	const JnContact* contact = &pass->worst;
 	const JnSkin* skin = &pass->skins[contact->vertex_skin];
-	snprintf(text, size, " in contact of '%.60s' (near node %d) with '%.60s', relative residual %.1e",
+	char why[64];
+	if (pass->passed > 0)
+		snprintf(why, sizeof why, "which it would enter by %.2g m", pass->passed);
+	else
+		snprintf(why, sizeof why, "relative residual %.1e", pass->tally.residual);
+	snprintf(text, size, " in contact of '%.60s' (near node %d) with '%.60s', %s",
 			 pass->model->bodies[skin->body].name, skin->nodes[(ptrdiff_t)skin->carriers * contact->vertex],
-			 name_of(pass, contact), pass->tally.residual);
+			 name_of(pass, contact), why);
 }
 
 const JnPassType jn_pass_contact = {

@@ -98,7 +98,8 @@ typedef struct JnContactPass {
 	double* force;           ///< 3 * nodes: of the last accepted step, for recordings [N]
 	double* gap;             ///< nodes: for recordings [m]
 	bool has_failed;         ///< contact failed the last attempt,
-	JnContact worst;         ///< at this one
+	JnContact worst;         ///< at this one,
+	double passed;           ///< which would still pass through by this much [m]; 0: its impulse was not found
 	JnContactObserver* observer;
 	void* observer_user;
 	JnContactTally tally, total; ///< of the attempt; of accepted steps, works summed up

@@ -86,6 +86,7 @@ JnStatus jn_contact_correct(JnContactPass* pass, const JnStep* step) {
 		if (missed == 0) break;
 		if (k + 1 == LOOKS && depth > pass->margin) {
 			pass->has_failed = true;
+			pass->passed = depth;
 			return JN_NOT_CONVERGED;
 		}
 		if (k + 1 < LOOKS) JN_TRY(jn_contact_extend(pass, step));
