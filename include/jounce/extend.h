@@ -204,7 +204,7 @@ typedef struct JnStep {
 	const JnState* start;
 	JnState* end;
 	double dt;
-	int order; ///< of the integrator; set by whoever corrects the end, integrators do not read it
+	const struct JnIntegratorType* method; ///< for those who correct the end; integrators do not read it
 	JnReport report;
 } JnStep;
 
@@ -220,9 +220,12 @@ typedef struct JnIntegratorType {
 	int needs;           ///< JnNeeds, combined by |
 	int order;           ///< classical order
 	double force_weight; ///< w in eps = w dt^2 |M^-1 (F - F~)|, for the force-error controller
-	int vectors;         ///< work vectors that a step needs
-	size_t memory_size;  ///< bytes of JnIntegrator.memory; zero at the start and after a reset
-	const void* table;   ///< coefficients, in the family's own form
+	/// Follows an oscillation of which a step is half a period or more nearly exactly, so that a force held over the step moves
+	/// it by twice its static displacement, or not at all: contact forces must not be carried from step to step.
+	bool overshoots;
+	int vectors;        ///< work vectors that a step needs
+	size_t memory_size; ///< bytes of JnIntegrator.memory; zero at the start and after a reset
+	const void* table;  ///< coefficients, in the family's own form
 	/// What follows from the coefficients; NULL: jn_integrator_properties measures on an oscillator instead.
 	void (*properties)(const void* table, struct JnTableauProperties* out);
 	JnStatus (*step)(JnIntegrator*, JnStep*);     ///< pure: the same start gives the same end

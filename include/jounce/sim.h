@@ -18,9 +18,9 @@ typedef struct JnContactPairDef {
 /// How bodies meet each other and obstacles: the predictor-corrector of HO section 4 (docs/contact.md).
 typedef struct JnContactDef {
 	int rule;       ///< 0 approaching: surfaces meet and do not overlap; 1 touching: as in the paper
-	int prediction; ///< contact forces that act in it: 0 carried, those of the last step; 1 iterated, of this one; 2 free
+	int prediction; ///< contact forces in it: 0 auto; 1 carried: of the last step; 2 iterated: of this one; 3 free: none
 	int rounds;     ///< most predictions a step where they are iterated
-	double margin;   ///< distance within which a vertex is watched [m]; NAN: a twentieth of the mean edge
+	double margin;  ///< distance within which a vertex is watched [m]; NAN: a twentieth of the mean edge
 	double push_out; ///< fastest separation of what overlaps [m/s]
 	double friction; ///< mu of pairs that `pairs` does not name
 	JnItems pairs;   ///< JnContactPairDef

@@ -108,30 +108,31 @@ static void dirk_properties(const void* table, JnTableauProperties* out) {
 }
 
 // force_weight: a_ii^2 of the last implicit stage (math of the force-error controller, w for a method with that stage).
-#define DIRK(method, p, diagonal, words)                                                                               \
+#define DIRK(method, p, diagonal, is_overshooting, words)                                                              \
 	const JnIntegratorType jn_##method = {                                                                             \
 		.row = {.name = #method, .doc = words},                                                                        \
 		.needs = JN_NEEDS_TANGENT,                                                                                     \
 		.order = p,                                                                                                    \
 		.force_weight = (diagonal) * (diagonal),                                                                       \
+		.overshoots = is_overshooting,                                                                                 \
 		.vectors = VECTORS,                                                                                            \
 		.table = &jn_tableau_##method,                                                                                 \
 		.properties = dirk_properties,                                                                                 \
 		.step = dirk_step,                                                                                             \
 	};
 
-DIRK(backward_euler, 1, 1, "one solve; very robust, damps strongly")
-DIRK(sdirk2, 2, 0.2928932188134525, "Alexander 1977: two solves, one matrix; the default for low damping")
-DIRK(sdirk3, 3, 0.4358665215084590, "Alexander 1977: three solves, third order")
-DIRK(tr_bdf2, 2, 0.2928932188134525, "Bank et al. 1985: two solves; keeps its order on stiff rotating bodies")
-DIRK(tr_bdf2_b, 2, 1.0 / 3, "Bathe 2007: trapezoid then BDF2 at half the step; two matrices")
-DIRK(sdirk_ncs23, 3, 0.7886751345948129, "Norsett, Crouzeix: two solves, third order, not stiffly accurate")
-DIRK(sdirk_nc34, 4, 1.068579021301629, "Norsett, Crouzeix: three solves, fourth order, not stiffly accurate")
-DIRK(sdirk_3345, 3, 1.068579021301629, "Franco, Gomez, Randez 1997: low dispersion, for smooth oscillations")
-DIRK(sdirk_4347, 3, 1.280579761275305,
+DIRK(backward_euler, 1, 1, false, "one solve; very robust, damps strongly")
+DIRK(sdirk2, 2, 0.2928932188134525, false, "Alexander 1977: two solves, one matrix; the default for low damping")
+DIRK(sdirk3, 3, 0.4358665215084590, false, "Alexander 1977: three solves, third order")
+DIRK(tr_bdf2, 2, 0.2928932188134525, false, "Bank et al. 1985: two solves; keeps its order on stiff rotating bodies")
+DIRK(tr_bdf2_b, 2, 1.0 / 3, false, "Bathe 2007: trapezoid then BDF2 at half the step; two matrices")
+DIRK(sdirk_ncs23, 3, 0.7886751345948129, false, "Norsett, Crouzeix: two solves, third order, not stiffly accurate")
+DIRK(sdirk_nc34, 4, 1.068579021301629, false, "Norsett, Crouzeix: three solves, fourth order, not stiffly accurate")
+DIRK(sdirk_3345, 3, 1.068579021301629, false, "Franco, Gomez, Randez 1997: low dispersion, for smooth oscillations")
+DIRK(sdirk_4347, 3, 1.280579761275305, false,
 	 "Franco, Gomez, Randez 1997: lowest dissipation, for smooth oscillations at small steps")
-DIRK(implicit_midpoint, 2, 0.5, "one solve; no numerical damping at all, symplectic")
-DIRK(trapezoid, 2, 0.5, "one solve; no numerical damping, Newmark with beta = 1/4 and gamma = 1/2")
-DIRK(esdirk324, 3, 0.4358665215084590, "Kennedy, Carpenter 2019: three solves, third order, stage order two")
-DIRK(esdirk325, 3, 0.225, "Kennedy, Carpenter 2019: four solves, third order, small phase error")
-DIRK(esdirk436, 4, 0.25, "Kennedy, Carpenter 2019: five solves, fourth order, the most accurate here per solve")
+DIRK(implicit_midpoint, 2, 0.5, false, "one solve; no numerical damping at all, symplectic")
+DIRK(trapezoid, 2, 0.5, false, "one solve; no numerical damping, Newmark with beta = 1/4 and gamma = 1/2")
+DIRK(esdirk324, 3, 0.4358665215084590, false, "Kennedy, Carpenter 2019: three solves, third order, stage order two")
+DIRK(esdirk325, 3, 0.225, true, "Kennedy, Carpenter 2019: four solves, third order, small phase error")
+DIRK(esdirk436, 4, 0.25, true, "Kennedy, Carpenter 2019: five solves, fourth order, the most accurate here per solve")

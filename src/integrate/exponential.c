@@ -368,6 +368,7 @@ const JnIntegratorType jn_exponential_rosenbrock = {
 	.needs = JN_NEEDS_TANGENT,
 	.order = 2,
 	.force_weight = 0.5,
+	.overshoots = true,
 	.vectors = VECTORS,
 	.step = exponential_step,
 };

@@ -17,7 +17,7 @@
 
 enum { JN_RULE_APPROACHING, JN_RULE_TOUCHING };
 enum { JN_DAMPING_AUTO, JN_DAMPING_NO, JN_DAMPING_YES };
-enum { JN_PREDICTION_CARRIED, JN_PREDICTION_ITERATED, JN_PREDICTION_FREE };
+enum { JN_PREDICTION_AUTO, JN_PREDICTION_CARRIED, JN_PREDICTION_ITERATED, JN_PREDICTION_FREE };
 
 /// Contacts as rows of G, of one attempt or of the last accepted step. Arrays grow and are kept.
 typedef struct JnContactRows {
@@ -78,6 +78,7 @@ typedef struct JnContactPass {
 	JnBodyMatrices matrices;
 	JnQp* qp;
 
+	int prediction;          ///< of the attempt: never auto
 	double theta;            ///< x = xp + theta dt (v - vp)
 	JnContactSet found;      ///< in the attempt
 	JnContactRows now, kept; ///< of the attempt, and of the last accepted step

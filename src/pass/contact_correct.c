@@ -20,14 +20,14 @@ static JnStatus find_free_velocities(JnContactPass* pass, const JnStep* step) {
 }
 
 // Forces that act in a damped prediction are taken off by a damped corrector, or energy comes in with them.
-static bool has_damping(const JnContactDef* def) {
-	if (def->damping == JN_DAMPING_AUTO) return def->prediction != JN_PREDICTION_FREE;
-	return def->damping == JN_DAMPING_YES;
+static bool has_damping(const JnContactPass* pass) {
+	if (pass->def->damping == JN_DAMPING_AUTO) return pass->prediction != JN_PREDICTION_FREE;
+	return pass->def->damping == JN_DAMPING_YES;
 }
 
 // The matrices of all bodies that take part, unless they are there already.
 static void fill_matrices(JnContactPass* pass, const JnStep* step) {
-	const double h = pass->theta * step->dt, damping = has_damping(pass->def) ? h : 0;
+	const double h = pass->theta * step->dt, damping = has_damping(pass) ? h : 0;
 	const int bodies = pass->model->body_count;
 	bool is_complete = true;
 	for (int b = 0; b < bodies; ++b) is_complete &= pass->is_filled[b] || !pass->moves[b];

@@ -4,7 +4,7 @@
 
 static const char* const rules[] = {"approaching", "touching", NULL};
 static const char* const dampings[] = {"auto", "no", "yes", NULL};
-static const char* const predictions[] = {"carried", "iterated", "free", NULL};
+static const char* const predictions[] = {"auto", "carried", "iterated", "free", NULL};
 
 static const JnKey pair_keys[] = {
 	{.name = "first",
@@ -41,9 +41,10 @@ const JnKey jn_contact_keys[] = {
 	 .field = offsetof(JnContactDef, prediction),
 	 .names = predictions,
 	 .meaning =
-		 "contact forces that act while the integrator predicts: carried, those of the last step, which keeps most "
-		 "energy at no cost; iterated, those of this step, by repeated predictions, which never adds energy; free, "
-		 "none, as in the paper, whose corrector then loses like Backward Euler"},
+		 "contact forces that act while the integrator predicts: auto, carried where the method allows it; carried, "
+		 "those of the last step, which keeps most energy at no cost; iterated, those of this step, by repeated "
+		 "predictions, which never adds energy; free, none, as in the paper, whose corrector then loses like "
+		 "Backward Euler"},
 	{.name = "rounds",
 	 .kind = JN_INTEGER,
 	 .field = offsetof(JnContactDef, rounds),

@@ -190,7 +190,7 @@ JnStatus jn_sim_step(JnSim* sim) {
 	while (!verdict.accepted) {
 		bool edited;
 		JnStep step = {.sys = sim->sys, .start = &sim->start, .end = &sim->end, .dt = clip(sim, sim->next_dt)};
-		step.order = sim->integrator->type->order;
+		step.method = sim->integrator->type;
 		const JnStatus outcome = attempt(sim, &step, &edited);
 		if (outcome < JN_OK) return outcome;
 		if (sim->controller->type->judge(sim->controller, &step, outcome, &verdict) != JN_OK)

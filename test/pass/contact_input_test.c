@@ -77,7 +77,7 @@ static void an_unknown_key_is_refused_with_the_nearest_one(void** state) {
 
 static void an_unknown_word_is_refused_with_the_known_ones(void** state) {
 	(void)state;
-	EXPECT_REFUSAL("  prediction: none", "13:3", "contact.prediction", "none", "carried", "iterated", "free");
+	EXPECT_REFUSAL("  prediction: none", "13:3", "contact.prediction", "none", "auto", "carried", "iterated", "free");
 	EXPECT_REFUSAL("  rule: touch", "13:3", "contact.rule", "touch", "approaching", "touching");
 }
 
