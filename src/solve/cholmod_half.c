@@ -44,9 +44,9 @@ static JnStatus reserve(Forward* f) {
 	const size_t entries = (size_t)f->columns->start[columns];
 	JnHalf* out = f->out;
 	JN_TRY(jn_half_begin(out, (int)supernodes));
-	JN_TRY(jn_half_grow((void**)&out->marks, &out->marks_capacity, 2 * n + 2 * supernodes + 2 + 2 * entries + columns,
-						sizeof *out->marks));
-	JN_TRY(jn_half_grow((void**)&out->left, &out->left_capacity, supernodes, sizeof *out->left));
+	JN_TRY(jn_grow((void**)&out->marks, &out->marks_capacity, 2 * n + 2 * supernodes + 2 + 2 * entries + columns,
+				   sizeof *out->marks));
+	JN_TRY(jn_grow((void**)&out->left, &out->left_capacity, supernodes, sizeof *out->left));
 	f->super_of = out->marks;
 	f->place = f->super_of + n;
 	f->child = f->place + n;
@@ -135,7 +135,7 @@ static void add_child(Forward* f, int s, int c) {
 
 static JnStatus assemble(Forward* f, int s, int count) {
 	const size_t numbers = (size_t)row_count(f, s) * (size_t)count;
-	JN_TRY(jn_half_grow((void**)&f->out->front, &f->out->front_capacity, numbers, sizeof *f->out->front));
+	JN_TRY(jn_grow((void**)&f->out->front, &f->out->front_capacity, numbers, sizeof *f->out->front));
 	memset(f->out->front, 0, numbers * sizeof *f->out->front);
 	for (int k = 0; k < row_count(f, s); ++k) f->place[f->rows[f->pi[s] + k]] = k;
 	add_entries(f, s);
@@ -161,8 +161,8 @@ static JnStatus leave(Forward* f, int s, const JnHalfPiece* piece) {
 	if (rows == own) return JN_OK;
 	const size_t below = (size_t)(rows - own);
 	JnHalf* out = f->out;
-	JN_TRY(jn_half_grow((void**)&out->stack, &out->stack_capacity, f->top + below * (size_t)piece->count,
-						sizeof *out->stack));
+	JN_TRY(
+		jn_grow((void**)&out->stack, &out->stack_capacity, f->top + below * (size_t)piece->count, sizeof *out->stack));
 	for (size_t j = 0; j < (size_t)piece->count; ++j)
 		memcpy(out->stack + f->top + j * below, out->front + j * (size_t)rows + own, below * sizeof *out->stack);
 	const int parent = f->super_of[f->rows[f->pi[s] + own]];

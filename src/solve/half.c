@@ -2,7 +2,6 @@
 
 #include <stdlib.h>
 
-#include "base/log.h"
 #include "math/lapack.h"
 
 void jn_half_clear(JnHalf* half) {
@@ -22,29 +21,17 @@ void jn_half_release(JnHalf* half) {
 	*half = (JnHalf){0};
 }
 
-JnStatus jn_half_grow(void** at, size_t* capacity, size_t count, size_t size) {
-	if (count <= *capacity) return JN_OK;
-	const size_t larger = count + count / 2;
-	void* grown = realloc(*at, larger * size);
-	if (grown == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: %zu bytes of a contact solver", larger * size);
-	*at = grown;
-	*capacity = larger;
-	return JN_OK;
-}
-
 JnStatus jn_half_begin(JnHalf* half, int panels) {
-	JN_TRY(jn_half_grow((void**)&half->latest, &half->latest_capacity, (size_t)panels, sizeof *half->latest));
+	JN_TRY(jn_grow((void**)&half->latest, &half->latest_capacity, (size_t)panels, sizeof *half->latest));
 	for (; half->panels < panels; ++half->panels) half->latest[half->panels] = -1;
 	return JN_OK;
 }
 
 JnStatus jn_half_append(JnHalf* half, int panel, int rows, int count, JnHalfPiece** out) {
 	const size_t values = (size_t)rows * (size_t)count;
-	JN_TRY(jn_half_grow((void**)&half->pieces, &half->piece_capacity, (size_t)half->piece_count + 1,
-						sizeof *half->pieces));
-	JN_TRY(jn_half_grow((void**)&half->column, &half->column_capacity, half->columns + (size_t)count,
-						sizeof *half->column));
-	JN_TRY(jn_half_grow((void**)&half->value, &half->value_capacity, half->values + values, sizeof *half->value));
+	JN_TRY(jn_grow((void**)&half->pieces, &half->piece_capacity, (size_t)half->piece_count + 1, sizeof *half->pieces));
+	JN_TRY(jn_grow((void**)&half->column, &half->column_capacity, half->columns + (size_t)count, sizeof *half->column));
+	JN_TRY(jn_grow((void**)&half->value, &half->value_capacity, half->values + values, sizeof *half->value));
 	*out = &half->pieces[half->piece_count];
 	**out = (JnHalfPiece){panel, rows, count, half->latest[panel], half->columns, half->values};
 	half->latest[panel] = half->piece_count++;
@@ -57,7 +44,7 @@ JnStatus jn_half_append(JnHalf* half, int panel, int rows, int count, JnHalfPiec
 static JnStatus add_products(JnHalf* half, const JnHalfPiece* a, const JnHalfPiece* b, size_t stride, double* matrix) {
 	const double one = 1, zero = 0;
 	const size_t count = (size_t)a->count * (size_t)b->count;
-	JN_TRY(jn_half_grow((void**)&half->front, &half->front_capacity, count, sizeof *half->front));
+	JN_TRY(jn_grow((void**)&half->front, &half->front_capacity, count, sizeof *half->front));
 	const double *left = half->value + a->value, *right = half->value + b->value;
 	if (a == b)
 		dsyrk_("L", "T", &a->count, &a->rows, &one, left, &a->rows, &zero, half->front, &a->count, 1, 1);

@@ -9,7 +9,7 @@
 #ifndef JN_SOLVE_HALF_H
 #define JN_SOLVE_HALF_H
 
-#include "jounce/base.h"
+#include "base/grow.h"
 
 /// Sparse vectors, one behind the other. Entries are 3 * node + axis; one that comes twice counts twice.
 typedef struct JnColumns {
@@ -46,9 +46,6 @@ typedef struct JnHalf {
 /// Forget the halves, keep the memory.
 void jn_half_clear(JnHalf* half);
 void jn_half_release(JnHalf* half);
-
-/// Room for `count` things of `size` bytes behind *at, whose content stays. JN_OUT_OF_MEMORY after a message.
-JnStatus jn_half_grow(void** at, size_t* capacity, size_t count, size_t size);
 
 /// Before the first pieces of a call by a factor with that many panels.
 JnStatus jn_half_begin(JnHalf* half, int panels);

@@ -79,7 +79,7 @@ static JnStatus find_group(JnDelassus* d, int contact) {
 	int group = d->bodies[least].group;
 	while (group >= 0 && !are_alike(d, contact, d->groups[group].contact)) group = d->groups[group].next;
 	if (group < 0) {
-		JN_TRY(jn_half_grow((void**)&d->groups, &d->group_capacity, (size_t)d->group_count + 1, sizeof *d->groups));
+		JN_TRY(jn_grow((void**)&d->groups, &d->group_capacity, (size_t)d->group_count + 1, sizeof *d->groups));
 		group = d->group_count++;
 		d->groups[group] = (JnDelassusGroup){contact, d->bodies[least].group};
 		d->bodies[least].group = group;
@@ -94,8 +94,8 @@ static JnStatus append_touches(JnDelassus* d, int first) {
 	for (int k = first; k < d->working_count; ++k) {
 		const int begin = problem->start[d->working[k]], end = problem->start[d->working[k] + 1];
 		d->touch_start[k + 1] = d->touch_start[k];
-		JN_TRY(jn_half_grow((void**)&d->touches, &d->touch_capacity, (size_t)(d->touch_start[k] + end - begin),
-							sizeof *d->touches));
+		JN_TRY(jn_grow((void**)&d->touches, &d->touch_capacity, (size_t)(d->touch_start[k] + end - begin),
+					   sizeof *d->touches));
 		for (int e = begin; e < end; ++e) {
 			const int b = body_of(d, problem->node[e]), last = d->bodies[b].last;
 			if (last < 0 || d->touches[last].contact != k) append_touch(d, k, b);
@@ -110,12 +110,12 @@ static JnStatus reserve_rows(JnDelassusBody* body, size_t old) {
 	const size_t rows = (size_t)body->rows;
 	if (rows > body->stride) {
 		const size_t stride = old == 0 ? rows : rows + rows / 4;
-		JN_TRY(jn_half_grow((void**)&body->w, &body->w_capacity, stride * stride, sizeof *body->w));
+		JN_TRY(jn_grow((void**)&body->w, &body->w_capacity, stride * stride, sizeof *body->w));
 		for (size_t j = old; j-- > 1;) memmove(body->w + j * stride, body->w + j * body->stride, old * sizeof *body->w);
 		body->stride = stride;
 	}
-	JN_TRY(jn_half_grow((void**)&body->lambda, &body->lambda_capacity, rows, sizeof *body->lambda));
-	JN_TRY(jn_half_grow((void**)&body->after, &body->after_capacity, rows, sizeof *body->after));
+	JN_TRY(jn_grow((void**)&body->lambda, &body->lambda_capacity, rows, sizeof *body->lambda));
+	JN_TRY(jn_grow((void**)&body->after, &body->after_capacity, rows, sizeof *body->after));
 	for (size_t j = 0; j < rows; ++j) {
 		const size_t begin = j < old ? old : j;
 		memset(body->w + j * body->stride + begin, 0, (rows - begin) * sizeof *body->w);
