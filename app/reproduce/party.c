@@ -77,7 +77,7 @@ static JnStatus draw_picture(StudyRun* run, int party) {
 	Picture picture = {.name = p->name,
 					   .camera = cameras[party],
 					   .columns = 3,
-					   .width = party == DUCKS ? 440 : 440,
+					   .width = 440,
 					   .height = party == DUCKS ? 620 : 460,
 					   .focus = party == DUCKS ? SHEETS : 1,
 					   .paint_count = SHEETS + DUCK_COUNT,

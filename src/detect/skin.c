@@ -55,19 +55,18 @@ JnStatus jn_skin_from_embedding(const JnEmbedding* embedding, int first_node, Jn
 	return JN_OK;
 }
 
-static void carried_position(const JnSkin* skin, int vertex, const double* x, double out[3]) {
+void jn_skin_position(const JnSkin* skin, int vertex, const double* x, double out[3]) {
 	const ptrdiff_t first = (ptrdiff_t)skin->carriers * vertex;
+	if (skin->weights == NULL) {
+		for (int a = 0; a < 3; a++) out[a] = x[3 * (ptrdiff_t)skin->nodes[vertex] + a];
+		return;
+	}
 	for (int a = 0; a < 3; a++) out[a] = 0;
 	for (ptrdiff_t i = first; i < first + skin->carriers; i++)
 		for (int a = 0; a < 3; a++) out[a] += skin->weights[i] * x[3 * (ptrdiff_t)skin->nodes[i] + a];
 }
 
 void jn_skin_positions(const JnSkin* skin, const double* x, double* out) {
-	for (int vertex = 0; vertex < skin->vertex_count; vertex++) {
-		double* at = out + 3 * (ptrdiff_t)vertex;
-		if (skin->weights != NULL)
-			carried_position(skin, vertex, x, at);
-		else
-			for (int a = 0; a < 3; a++) at[a] = x[3 * (ptrdiff_t)skin->nodes[vertex] + a];
-	}
+	for (int vertex = 0; vertex < skin->vertex_count; vertex++)
+		jn_skin_position(skin, vertex, x, out + 3 * (ptrdiff_t)vertex);
 }

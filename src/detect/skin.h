@@ -25,6 +25,9 @@ JnStatus jn_skin_from_triangles(int count, const int* triangles, JnArena* arena,
 /// A skin of an embedded surface whose mesh's node 0 is the model's `first_node`. Copied likewise.
 JnStatus jn_skin_from_embedding(const JnEmbedding* embedding, int first_node, JnArena* arena, JnSkin* skin);
 
+/// Position of one vertex [m] when the model's nodes are at x [m].
+void jn_skin_position(const JnSkin* skin, int vertex, const double* x, double out[3]);
+
 /// out[3 * vertex_count] = positions of the vertices [m] when the model's nodes are at x [m].
 void jn_skin_positions(const JnSkin* skin, const double* x, double* out);
 

@@ -47,7 +47,7 @@ static JnStatus prepare(JnPass* base, const JnStep* step, int round) {
 	JnContactPass* pass = of(base);
 	if (round == 0) {
 		JN_TRY(choose_prediction(pass, step->method));
-		pass->is_loaded = pass->prediction != JN_PREDICTION_FREE && pass->has_load;
+		pass->is_loaded = pass->prediction != JN_PREDICTION_FREE && pass->total.pressing > 0;
 		if (pass->is_loaded) memcpy(pass->tried, pass->load, jn_contact_entries(pass) * sizeof *pass->tried);
 	}
 	jn_model_system_set_load(pass->model, pass->is_loaded ? pass->tried : NULL);
@@ -105,7 +105,6 @@ static void commit(JnPass* base, const JnStep* step) {
 	pass->kept = pass->now;
 	pass->now = rows;
 	memcpy(pass->load, pass->force, jn_contact_entries(pass) * sizeof *pass->load);
-	pass->has_load = pass->tally.pressing > 0;
 	jn_contact_tally_add(&pass->tally, &pass->total);
 }
 

@@ -22,10 +22,10 @@ enum { JN_PREDICTION_AUTO, JN_PREDICTION_CARRIED, JN_PREDICTION_ITERATED, JN_PRE
 /// Contacts as rows of G, of one attempt or of the last accepted step. Arrays grow and are kept.
 typedef struct JnContactRows {
 	int count;
-	JnIndices indices;   ///< behind start, node and island
+	JnIndices indices;   ///< behind the arrays of integers
 	JnNumbers numbers;   ///< behind the arrays of numbers
 	int* start;          ///< count + 1, into node and weight
-	int* source;         ///< number among the contacts found
+	int* source;         ///< number among the contacts found; in a part: of the row that was copied
 	int* island;         ///< number of its island, or -1: no body of it takes part
 	int* node;           ///< each node of a contact once
 	double* weight;      ///< of a node's velocity in the relative velocity
@@ -94,9 +94,8 @@ typedef struct JnContactPass {
 	double *solved, *work;   ///< 3 * nodes
 	double* corrected;       ///< 3 * nodes: positions that belong to v [m]
 	double *load, *tried;    ///< 3 * nodes: forces of the last accepted step, and those that act in the attempt [N]
-	bool has_load;           ///< load is not zero
 	bool is_loaded;          ///< `tried` is not zero
-	double* force;           ///< 3 * nodes: of the last accepted step, for recordings [N]
+	double* force;           ///< 3 * nodes: of contact in the attempt, which `load` becomes [N]
 	double* gap;             ///< nodes: for recordings [m]
 	bool has_failed;         ///< contact failed the last attempt,
 	JnContact worst;         ///< at this one,
@@ -111,6 +110,15 @@ void jn_contact_observe(JnPass* pass, JnContactObserver* observer, void* user);
 
 /// Skins, obstacles, friction and detector, from the definitions of bodies. JN_BAD_INPUT after a message.
 JnStatus jn_contact_surfaces_create(JnContactPass* pass);
+
+/// Where the entries of a body begin in a vector of 3 * nodes, and how many they are.
+static inline size_t jn_contact_first_entry(const JnContactPass* pass, int body) {
+	return 3 * (size_t)pass->model->bodies[body].first_node;
+}
+
+static inline size_t jn_contact_entry_count(const JnContactPass* pass, int body) {
+	return 3 * (size_t)pass->model->bodies[body].mesh.node_count;
+}
 
 static inline size_t jn_contact_entries(const JnContactPass* pass) {
 	return 3 * (size_t)pass->model->node_count;
@@ -172,14 +180,11 @@ void jn_contact_rows_release(JnContactRows* rows);
 /// Room for `count` rows with `entries` nodes in all; what was there is lost when it must grow.
 JnStatus jn_contact_rows_reserve(JnContactRows* rows, int count, int entries);
 
-/// Give every row the number of its island; pass->moves and the matrices follow. Returns how many islands there are.
+/// Give every row and body the number of its island; pass->moves follows. Returns how many islands there are.
 int jn_contact_islands_find(JnContactPass* pass, const JnStep* step);
 
 /// Solve the contact problem of an island: velocities into pass->v, impulses into pass->now.lambda.
 JnStatus jn_contact_island_solve(JnContactPass* pass, int island);
-
-/// The contact of the part that is worst, by violation of its bound and complementarity, at velocities v.
-int jn_contact_worst(const JnContactProblem* problem, const double* v, const double* lambda);
 
 /// The matrix of the bodies that pass->is_in names, by its verbs.
 JnContactMatrix jn_contact_matrix(JnContactPass* pass);

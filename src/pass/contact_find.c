@@ -3,7 +3,7 @@
 // and what is met there and not among the rows yet joins them. A row whose plane stands badly for the surface is renewed.
 #include <math.h>
 
-#include "base/log.h"
+#include "base/grow.h"
 #include "base/timer.h"
 #include "math/vec3.h"
 #include "mesh/triangle_tree.h"
@@ -14,13 +14,7 @@ static const double bend = 0.5;   // of the margin: where the planes that stand 
 static const double same = 0.9;   // cosine of normals of one contact, seen twice
 
 static JnStatus reserve(JnContactSet* set, int count) {
-	if ((size_t)count <= set->capacity) return JN_OK;
-	const size_t capacity = (size_t)count + (size_t)count / 2 + 16;
-	JnContact* at = realloc(set->at, capacity * sizeof *at);
-	if (at == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: %d contacts", count);
-	set->at = at;
-	set->capacity = capacity;
-	return JN_OK;
+	return jn_grow((void**)&set->at, &set->capacity, (size_t)count, sizeof *set->at);
 }
 
 static JnStatus look(JnContactPass* pass, const JnStep* step, const double* x, JnContactList* list) {
@@ -63,22 +57,13 @@ static void sort(JnContactSet* found, int known) {
 	}
 }
 
-static void vertex_at(const JnSkin* skin, int vertex, const double* x, double at[3]) {
-	for (int a = 0; a < 3; ++a) at[a] = 0;
-	for (int i = 0; i < skin->carriers; ++i) {
-		const ptrdiff_t k = (ptrdiff_t)skin->carriers * vertex + i;
-		for (int a = 0; a < 3; ++a)
-			at[a] += (skin->weights != NULL ? skin->weights[k] : 1) * x[3 * (ptrdiff_t)skin->nodes[k] + a];
-	}
-}
-
 // normal . (vertex - point of the triangle) where the nodes are at x.
 static double gap_at(const JnContactPass* pass, const JnContact* contact, const double* x) {
 	const JnSkin* other = &pass->skins[contact->other_skin];
 	double apart[3], corner[3];
-	vertex_at(&pass->skins[contact->vertex_skin], contact->vertex, x, apart);
+	jn_skin_position(&pass->skins[contact->vertex_skin], contact->vertex, x, apart);
 	for (int i = 0; i < 3; ++i) {
-		vertex_at(other, other->triangles[3 * (ptrdiff_t)contact->other + i], x, corner);
+		jn_skin_position(other, other->triangles[3 * (ptrdiff_t)contact->other + i], x, corner);
 		for (int a = 0; a < 3; ++a) apart[a] -= contact->weights[i] * corner[a];
 	}
 	return vec3_dot(contact->normal, apart);
@@ -89,8 +74,8 @@ static bool turn(const JnContactPass* pass, const JnStep* step, const double* x,
 	const JnSkin* other = &pass->skins[contact->other_skin];
 	const int* t = other->triangles + 3 * (ptrdiff_t)contact->other;
 	double at[3][3], p[3], normal[3];
-	for (int i = 0; i < 3; ++i) vertex_at(other, t[i], x, at[i]);
-	vertex_at(&pass->skins[contact->vertex_skin], contact->vertex, x, p);
+	for (int i = 0; i < 3; ++i) jn_skin_position(other, t[i], x, at[i]);
+	jn_skin_position(&pass->skins[contact->vertex_skin], contact->vertex, x, p);
 	vec3_triangle(at[0], at[1], at[2], normal);
 	vec3_normalize(normal);
 	const double side = vec3_dot(normal, contact->normal) < 0 ? -1 : 1; // a sheet without inside has two

@@ -42,9 +42,8 @@ static void connect(JnContactPass* pass) {
 
 // The load of the last step acts on a body.
 static bool carries_load(const JnContactPass* pass, int body) {
-	const JnBody* b = &pass->model->bodies[body];
-	const double* load = pass->tried + 3 * (size_t)b->first_node;
-	for (int k = 0; pass->is_loaded && k < 3 * b->mesh.node_count; ++k)
+	const double* load = pass->tried + jn_contact_first_entry(pass, body);
+	for (size_t k = 0; pass->is_loaded && k < jn_contact_entry_count(pass, body); ++k)
 		if (load[k] != 0) return true;
 	return false;
 }
@@ -87,7 +86,7 @@ static JnStatus gather(JnContactPass* pass, int island) {
 		memcpy(part->lambda[k], all->lambda[i], sizeof part->lambda[k]);
 		part->start[k + 1] = part->start[k] + nodes;
 		part->friction[k] = all->friction[i];
-		part->island[k] = i;
+		part->source[k] = i;
 	}
 	return JN_OK;
 }
@@ -97,8 +96,7 @@ static void set_bodies(JnContactPass* pass, int island, bool is_in) {
 	const JnModel* model = pass->model;
 	for (int b = 0; b < model->body_count; ++b) {
 		if (pass->island_of[b] != island) continue;
-		const size_t first = 3 * (size_t)model->bodies[b].first_node,
-					 count = 3 * (size_t)model->bodies[b].mesh.node_count;
+		const size_t first = jn_contact_first_entry(pass, b), count = jn_contact_entry_count(pass, b);
 		pass->is_in[b] = is_in;
 		for (size_t k = first; k < first + count; ++k) pass->held[k] = !is_in || model->held[k];
 	}
@@ -129,15 +127,15 @@ static void tally(JnContactPass* pass, const JnQpReport* report) {
 }
 
 static void keep_velocities(JnContactPass* pass, const double* v) {
-	const JnModel* model = pass->model;
-	for (int b = 0; b < model->body_count; ++b) {
+	for (int b = 0; b < pass->model->body_count; ++b) {
 		if (!pass->is_in[b]) continue;
-		const size_t first = 3 * (size_t)model->bodies[b].first_node;
-		memcpy(pass->v + first, v + first, 3 * (size_t)model->bodies[b].mesh.node_count * sizeof *v);
+		const size_t first = jn_contact_first_entry(pass, b);
+		memcpy(pass->v + first, v + first, jn_contact_entry_count(pass, b) * sizeof *v);
 	}
 }
 
-int jn_contact_worst(const JnContactProblem* problem, const double* v, const double* lambda) {
+// The contact that is worst, by violation of its bound and complementarity, at velocities v.
+static int find_worst(const JnContactProblem* problem, const double* v, const double* lambda) {
 	double most = -1;
 	int worst = 0;
 	for (int i = 0; i < problem->count; ++i) {
@@ -160,14 +158,14 @@ JnStatus jn_contact_island_solve(JnContactPass* pass, int island) {
 	keep_velocities(pass, pass->solved);
 	set_bodies(pass, island, false);
 	if (status > JN_OK) {
-		const int worst = jn_contact_worst(&problem, pass->solved, &pass->part.lambda[0][0]);
-		pass->worst = pass->now.contact[pass->part.island[worst]];
+		const int worst = find_worst(&problem, pass->solved, &pass->part.lambda[0][0]);
+		pass->worst = pass->now.contact[pass->part.source[worst]];
 		pass->has_failed = true;
 		pass->tally.residual = jn_contact_residual_max(&report.residual);
 	}
 	JN_TRY(status);
 	for (int i = 0; i < pass->part.count; ++i)
-		memcpy(pass->now.lambda[pass->part.island[i]], pass->part.lambda[i], sizeof pass->part.lambda[i]);
+		memcpy(pass->now.lambda[pass->part.source[i]], pass->part.lambda[i], sizeof pass->part.lambda[i]);
 	tally(pass, &report);
 	return JN_OK;
 }

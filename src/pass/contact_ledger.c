@@ -16,10 +16,15 @@ double jn_contact_work(const JnContactPass* pass, const double* force, const JnS
 	return sum;
 }
 
+// work = x1 - x0
+static void find_displacements(JnContactPass* pass, const JnStep* step) {
+	for (size_t k = 0; k < jn_contact_entries(pass); ++k) pass->work[k] = step->end->x[k] - step->start->x[k];
+}
+
 static void tally_rows(JnContactPass* pass, const JnStep* step) {
 	const JnContactRows* rows = &pass->now;
 	const JnContactProblem problem = jn_contact_geometry(rows);
-	for (size_t k = 0; k < jn_contact_entries(pass); ++k) pass->work[k] = step->end->x[k] - step->start->x[k];
+	find_displacements(pass, step);
 	for (int i = 0; i < rows->count; ++i) {
 		double moved[3];
 		jn_contact_velocity(&problem, i, pass->work, moved);
@@ -33,7 +38,7 @@ void jn_contact_find_gaps(JnContactPass* pass, const JnStep* step) {
 	const JnContactRows* rows = &pass->now;
 	const JnContactProblem problem = jn_contact_geometry(rows);
 	for (int node = 0; node < pass->model->node_count; ++node) pass->gap[node] = pass->margin;
-	for (size_t k = 0; k < jn_contact_entries(pass); ++k) pass->work[k] = step->end->x[k] - step->start->x[k];
+	find_displacements(pass, step);
 	for (int i = 0; i < rows->count; ++i) {
 		double moved[3];
 		jn_contact_velocity(&problem, i, pass->work, moved);

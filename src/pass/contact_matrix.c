@@ -13,18 +13,10 @@ static bool is_zero(const double* x, size_t count) {
 	return true;
 }
 
-static size_t first_entry(const JnContactPass* pass, int body) {
-	return 3 * (size_t)pass->model->bodies[body].first_node;
-}
-
-static size_t entry_count(const JnContactPass* pass, int body) {
-	return 3 * (size_t)pass->model->bodies[body].mesh.node_count;
-}
-
 static void apply(void* user, const double* x, double* out) {
 	JnContactPass* pass = user;
 	for (int b = 0; b < pass->model->body_count; ++b) {
-		const size_t first = first_entry(pass, b), count = entry_count(pass, b);
+		const size_t first = jn_contact_first_entry(pass, b), count = jn_contact_entry_count(pass, b);
 		const JnBodyMatrix* matrix = &pass->matrices.bodies[b];
 		memset(out + first, 0, count * sizeof *out);
 		if (pass->is_in[b] && !is_zero(x + first, count))
@@ -35,7 +27,7 @@ static void apply(void* user, const double* x, double* out) {
 static JnStatus solve(void* user, const double* rhs, double* out) {
 	JnContactPass* pass = user;
 	for (int b = 0; b < pass->model->body_count; ++b) {
-		const size_t first = first_entry(pass, b), count = entry_count(pass, b);
+		const size_t first = jn_contact_first_entry(pass, b), count = jn_contact_entry_count(pass, b);
 		JnSolver* solver = pass->matrices.bodies[b].solver;
 		memset(out + first, 0, count * sizeof *out);
 		if (!pass->is_in[b] || solver == NULL || is_zero(rhs + first, count)) continue;
@@ -62,7 +54,7 @@ static void diagonal(void* user, double* out) {
 	JnContactPass* pass = user;
 	for (int b = 0; b < pass->model->body_count; ++b) {
 		const JnBodyMatrix* matrix = &pass->matrices.bodies[b];
-		double* own = out + first_entry(pass, b);
+		double* own = out + jn_contact_first_entry(pass, b);
 		for (int i = 0; pass->is_in[b] && i < matrix->pattern.nodes; ++i)
 			for (int axis = 0; axis < 3; ++axis)
 				own[3 * i + axis] = matrix->blocks[9 * (size_t)matrix->pattern.column_start[i] + 4 * (size_t)axis];

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/log.h"
+#include "base/grow.h"
 #include "math/vec3.h"
 #include "pass/contact.h"
 
@@ -188,13 +188,7 @@ JnStatus jn_contact_rows_reserve(JnContactRows* rows, int count, int entries) {
 	rows->friction = numbers + 15 * n;
 	rows->gap = numbers + 16 * n;
 	rows->weight = numbers + 17 * n;
-	if (n <= rows->contact_capacity) return JN_OK;
-	free(rows->contact);
-	rows->contact_capacity = n + n / 2;
-	rows->contact = malloc(rows->contact_capacity * sizeof *rows->contact);
-	if (rows->contact != NULL) return JN_OK;
-	rows->contact_capacity = 0;
-	return jn_error(JN_OUT_OF_MEMORY, "out of memory: %d contacts", count);
+	return jn_grow((void**)&rows->contact, &rows->contact_capacity, n, sizeof *rows->contact);
 }
 
 void jn_contact_rows_release(JnContactRows* rows) {
