@@ -66,6 +66,7 @@ typedef struct JnReport {
 	int tangents;       ///< assemblies of K
 	int factorizations; ///< numeric factorisations
 	int solves;         ///< solves with a factor
+	int iterations;     ///< of those solves, where the linear solver iterates
 	int indefinite;     ///< Newton matrices that were indefinite and were replaced by the definite form
 	int backtracks;     ///< halvings in the line search
 	int minimized;      ///< stages that newton.mode auto handed over from root to minimize

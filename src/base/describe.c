@@ -76,9 +76,10 @@ static void default_text(const JnKey* key, size_t size, char* text) {
 
 void jn_key_cells(const JnKey* key, JnKeyCells* cells) {
 	const bool has_unit = key->unit != NULL && key->unit[0] != '\0';
-	const char* kind = key->kind == JN_VARIANT ? key->rows->noun : kind_names[key->kind];
-	snprintf(cells->kind, sizeof cells->kind, "%s%s%s%s", kind, has_unit ? " [" : "", has_unit ? key->unit : "",
-			 has_unit ? "]" : "");
+	const char* kind = key->rows != NULL ? key->rows->noun : kind_names[key->kind];
+	const bool is_list = key->rows != NULL && key->kind == JN_LIST;
+	snprintf(cells->kind, sizeof cells->kind, "%s%s%s%s%s%s", is_list ? "list of " : "", kind, is_list ? "s" : "",
+			 has_unit ? " [" : "", has_unit ? key->unit : "", has_unit ? "]" : "");
 	default_text(key, sizeof cells->value, cells->value);
 	jn_bounds_text(key, sizeof cells->bounds, cells->bounds);
 	jn_names_list((JnNames){.words = key->kind == JN_CHOICE ? key->names : NULL}, sizeof cells->words, cells->words);
@@ -182,7 +183,7 @@ static void find_in_table(Lookup* lookup, const JnKeyPart* table, const char* pa
 	snprintf(lookup->path + used, sizeof lookup->path - used, "%s%s", used > 0 ? "." : "", name);
 	const JnKeyPart holder = {.path = outer};
 	const JnKeyPart nested = {.keys = key->keys, .path = lookup->path};
-	if (key->kind == JN_VARIANT)
+	if (key->rows != NULL)
 		find_in_rows(lookup, key, &holder, rest);
 	else if (key->keys != NULL)
 		find_in_table(lookup, &nested, rest);

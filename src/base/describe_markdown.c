@@ -94,7 +94,7 @@ static void put_variant(Printer* printer, const JnKey* variant) {
 static void put_nested(Printer* printer, const JnKey* keys, int count) {
 	for (int i = 0; i < count; i++) {
 		const size_t mark = enter(printer, &keys[i]);
-		if (keys[i].kind == JN_VARIANT)
+		if (keys[i].rows != NULL)
 			put_variant(printer, &keys[i]);
 		else if (keys[i].keys != NULL && jn_open_tables_push(&printer->open, keys[i].keys)) {
 			put_heading(printer, NULL, NULL);

@@ -68,7 +68,7 @@ static void print_key(Printer* printer, const JnKey* key, int depth) {
 	jn_key_cells(key, &cells);
 	snprintf(name, sizeof name, "%*s%s", 2 * depth, "", key->name);
 	print_line(printer, (const char* const[]){name, cells.kind, cells.value, cells.bounds}, key->meaning, cells.words);
-	if (key->kind == JN_VARIANT)
+	if (key->rows != NULL)
 		print_rows(printer, key, depth + 1);
 	else if (key->keys != NULL && jn_open_tables_push(&printer->open, key->keys)) {
 		print_keys(printer, key->keys, jn_keys_count(key->keys), depth + 1);

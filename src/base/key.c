@@ -17,6 +17,8 @@ typedef struct Table {
 	const char* tag;
 } Table;
 
+typedef JnStatus (*ReadField)(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
+
 static JnStatus read_table(JnKeyReader* reader, const Table* table, const JnNode* mapping, void* out);
 
 static const JnKey* find_key(const JnKey* keys, const char* name) {
@@ -81,22 +83,6 @@ static JnStatus read_optional(JnKeyReader* reader, const JnKey* key, const JnNod
 	return read_table(reader, &(Table){.keys = key->keys}, node, data);
 }
 
-static JnStatus read_list(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field) {
-	JnItems* items = field;
-	*items = (JnItems){0};
-	if (node == NULL) return JN_OK;
-	if (node->kind != JN_NODE_SEQUENCE) return jn_key_kind_error(reader, node, "a list is expected: lines with '- '");
-	items->data = jn_arena_take(reader->arena, (size_t)node->count, key->size);
-	if (items->data == NULL) return JN_OUT_OF_MEMORY;
-	items->count = node->count;
-	for (int i = 0; i < node->count; i++) {
-		const size_t mark = jn_key_enter(reader, NULL, i);
-		JN_TRY(read_object(reader, key, node->children[i], (char*)items->data + (size_t)i * key->size));
-		jn_key_leave(reader, mark);
-	}
-	return JN_OK;
-}
-
 static JnStatus complain_row(const JnKeyReader* reader, const JnKey* key, const JnNode* node) {
 	const JnNames names = {.rows = key->rows};
 	char near[128], list[64];
@@ -150,8 +136,24 @@ static JnStatus read_variant(JnKeyReader* reader, const JnKey* key, const JnNode
 	return read_table(reader, &table, mapping, variant->options);
 }
 
+static JnStatus read_list(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field) {
+	JnItems* items = field;
+	*items = (JnItems){0};
+	if (node == NULL) return JN_OK;
+	if (node->kind != JN_NODE_SEQUENCE) return jn_key_kind_error(reader, node, "a list is expected: lines with '- '");
+	items->data = jn_arena_take(reader->arena, (size_t)node->count, key->size);
+	if (items->data == NULL) return JN_OUT_OF_MEMORY;
+	items->count = node->count;
+	const ReadField read_item = key->rows != NULL ? read_variant : read_object;
+	for (int i = 0; i < node->count; i++) {
+		const size_t mark = jn_key_enter(reader, NULL, i);
+		JN_TRY(read_item(reader, key, node->children[i], (char*)items->data + (size_t)i * key->size));
+		jn_key_leave(reader, mark);
+	}
+	return JN_OK;
+}
+
 // The kinds by what reads them: `read` takes a node that exists, `nest` takes NULL for the default as well.
-typedef JnStatus (*ReadField)(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field);
 static const struct {
 	ReadField read, nest;
 } kinds[] = {

@@ -68,6 +68,7 @@ static const Noun nouns[] = {
 	{"kg/m^2", "a mass per area", "0.2 kg/m^2"},
 	{"kg/m^3", "a density", "1000 kg/m^3"},
 	{"N/m", "a stiffness", "100 N/m"},
+	{"J/m^2", "an energy per area", "100 J/m^2"},
 	{"N m", "a torque", "2 N m"},
 	{"N m/rad", "a torsional stiffness", "2 N m/rad"},
 	{"Pa s", "a viscosity", "10 Pa s"},

@@ -146,7 +146,20 @@ static double max(JnSpace* space, const double* a) {
 	return max_range(a, space->length);
 }
 
-static const JnSpaceOps host_ops = {.create = create, .destroy = destroy, .combine = combine, .dot = dot, .max = max};
+static double longest(JnSpace* space, const double* a) {
+	const size_t entries = space->node_entries > 1 ? (size_t)space->node_entries : 1;
+	double largest = 0;
+	for (size_t k = 0; k < space->length; k += entries) {
+		double square = 0;
+		for (size_t i = 0; i < entries; ++i) square += a[k + i] * a[k + i];
+		if (!(square <= largest)) largest = square; // true for NAN, which then stays
+		if (isnan(largest)) return largest;
+	}
+	return sqrt(largest);
+}
+
+static const JnSpaceOps host_ops = {
+	.create = create, .destroy = destroy, .combine = combine, .dot = dot, .max = max, .longest = longest};
 
 JnSpace* jn_host_space_create(size_t length, int threads) {
 	HostSpace* host = calloc(1, sizeof *host);
