@@ -13,13 +13,14 @@ enum {
 typedef struct Way {
 	const double *start, *end; // [m]
 	double length;             // [m]
+	double offset;             // of the surface that is touched, from that of the obstacle [m]
 } Way;
 
 /// Distance and normal at share `when` of the way, and the point of the surface nearest there.
 static double look(const JnObstacle* obstacle, const Way* way, double when, JnContact* contact) {
 	double at[3];
 	for (int a = 0; a < 3; a++) at[a] = (1 - when) * way->start[a] + when * way->end[a];
-	const double distance = jn_obstacle_distance(obstacle, at, contact->normal);
+	const double distance = jn_obstacle_distance(obstacle, at, contact->normal) - way->offset;
 	for (int a = 0; a < 3; a++) contact->point[a] = at[a] - distance * contact->normal[a];
 	contact->when = when;
 	return distance;
@@ -50,7 +51,7 @@ static bool advance(const JnObstacle* obstacle, const Way* way, double distance,
 int jn_meeting_obstacle(const JnMover* mine, int vertex, const JnObstacle* obstacle, double margin,
 						JnContact* contacts) {
 	const ptrdiff_t own = 3 * (ptrdiff_t)vertex;
-	Way way = {.start = mine->motion.start + own, .end = mine->motion.end + own};
+	Way way = {.start = mine->motion.start + own, .end = mine->motion.end + own, .offset = mine->skin->offset};
 	way.length = vec3_distance(way.start, way.end);
 	JnContact first = {.vertex = vertex}, last = {.vertex = vertex};
 	const double at_start = look(obstacle, &way, 0, &first);

@@ -15,6 +15,7 @@ typedef struct JnSkin {
 	const double* weights; ///< as many; those of a vertex sum to 1. NULL when carriers is 1
 	int triangle_count;
 	const int* triangles; ///< 3 * triangle_count vertex numbers, outward by the right-hand rule
+	double offset;        ///< >= 0: distance from obstacles at which its vertices touch them [m]
 } JnSkin;
 
 /// A skin of `count` triangles of model nodes (3 * count numbers, outward): the nodes that are used become the vertices,

@@ -87,7 +87,7 @@ static int* put_face(const JnMesh* mesh, int place, int* out) {
 }
 
 JnStatus jn_mesh_boundary(const JnMesh* mesh, JnArena* arena, int* count, int** triangles) {
-	static const int triangles_a_face[JN_SHAPE_COUNT] = {[JN_TET4] = 1, [JN_TET10] = 4, [JN_HEX8] = 2};
+	static const int triangles_a_face[JN_SHAPE_COUNT] = {[JN_TET4] = 1, [JN_TET10] = 4, [JN_HEX8] = 2, [JN_TRI3] = 1};
 	const int faces = jn_shape_info[mesh->shape].faces;
 	JnArena scratch = {0};
 	Face* list = jn_arena_take(&scratch, (size_t)mesh->cell_count * (size_t)faces + 1, sizeof *list);

@@ -1,5 +1,5 @@
 /// @file boundary.h
-/// The outer faces of a volume mesh, as triangles.
+/// The outer faces of a volume mesh, as triangles; those of a surface mesh are its cells, and points have none.
 #ifndef JN_MESH_BOUNDARY_H
 #define JN_MESH_BOUNDARY_H
 

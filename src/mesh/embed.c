@@ -174,6 +174,7 @@ void jn_embedding_positions(const JnEmbedding* embedding, const double* x, doubl
 		const int* nodes = embedding->nodes + (ptrdiff_t)i * count;
 		const double* weights = embedding->weights + (ptrdiff_t)i * count;
 		double sum[3] = {0};
+		if (embedding->offsets != NULL) memcpy(sum, embedding->offsets + 3 * (ptrdiff_t)i, sizeof sum);
 		for (int k = 0; k < count; ++k)
 			for (int a = 0; a < 3; ++a) sum[a] += weights[k] * x[3 * (ptrdiff_t)nodes[k] + a];
 		memcpy(positions + 3 * (ptrdiff_t)i, sum, sizeof sum);

@@ -11,6 +11,7 @@ typedef struct JnEmbedding {
 	int cell_nodes;        ///< nodes that carry a vertex: those of the cells
 	const int* nodes;      ///< cell_nodes * surface.node_count numbers of the mesh's nodes
 	const double* weights; ///< as many; of one vertex they sum to 1
+	const double* offsets; ///< 3 * surface.node_count, added to the weighted sums: of rigid things; NULL: none
 } JnEmbedding;
 
 /// Find the cell and the weights of every vertex of a surface in a hex8 or tet4 mesh. A vertex outside all cells follows

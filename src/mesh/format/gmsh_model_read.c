@@ -89,7 +89,7 @@ JnStatus jn_gmsh_model_read(FILE* stream, const char* what, JnArena* arena, JnIm
 	const Reader reader = {stream, what, arena, (size_t)info.st_size};
 	if (fread(&header, sizeof header, 1, stream) != 1) return tell_damage(&reader);
 	const bool is_volume = header.shape != JN_GMSH_SURFACE;
-	if (header.nodes > INT_MAX / 3 || header.entries > INT_MAX || (is_volume && header.shape >= JN_SHAPE_COUNT))
+	if (header.nodes > INT_MAX / 3 || header.entries > INT_MAX || (is_volume && header.shape >= JN_SOLID_SHAPE_COUNT))
 		return tell_damage(&reader);
 	double* nodes = NULL;
 	int* cells = NULL;

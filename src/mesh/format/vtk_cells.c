@@ -20,7 +20,7 @@ static int dimension_of(int64_t type) {
 }
 
 static int shape_of(int64_t type) {
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape)
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape)
 		if (jn_shape_info[shape].vtk_type == type) return shape;
 	return -1;
 }

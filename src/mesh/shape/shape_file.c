@@ -63,6 +63,10 @@ const JnKey jn_file_keys[] = {
 	 .keys = voxel_keys,
 	 .size = sizeof(JnVoxelsDef),
 	 .meaning = "surround a surface with cubes that carry it along: coarse and fast"},
+	{.name = "triangles",
+	 .kind = JN_SWITCH,
+	 .field = offsetof(JnFileDef, triangles),
+	 .meaning = "take the triangles of a surface as they are, for laws of cloth"},
 	{0},
 };
 
@@ -112,16 +116,29 @@ static JnStatus generate(const void* options, const char* what, JnArena* arena, 
 	const JnFileDef* def = options;
 	JnFileMesh file;
 	JN_TRY(jn_file_mesh(def, what, arena, &file));
-	if (!file.has_volume)
-		return jn_error(JN_BAD_INPUT,
-						"%s: %s holds a surface; fill it: `tetrahedra: {size: 2 cm}` or `voxels: {size: 5 cm}`", what,
+	if (def->triangles && file.has_volume)
+		return jn_error(JN_BAD_INPUT, "%s.triangles: %s is a volume, or filled to be one; leave this key out", what,
 						def->path);
+	if (!file.has_volume && !def->triangles)
+		return jn_error(
+			JN_BAD_INPUT,
+			"%s: %s holds a surface; fill it: `tetrahedra: {size: 2 cm}` or `voxels: {size: 5 cm}`, or take "
+			"it as cloth: `triangles: true`",
+			what, def->path);
+	if (def->triangles) {
+		*mesh = (JnMesh){.shape = JN_TRI3,
+						 .node_count = file.surface.node_count,
+						 .nodes = file.surface.nodes,
+						 .cell_count = file.surface.triangle_count,
+						 .cells = file.surface.triangles};
+		return JN_OK;
+	}
 	*mesh = file.volume;
 	return JN_OK;
 }
 
 const JnShapeType jn_shape_file = {
-	.row = {"file", "A mesh from a file: a volume, or a surface that is filled with cells.", jn_file_keys,
-			sizeof(JnFileDef)},
+	.row = {"file", "A mesh from a file: a volume, or a surface that is filled with cells or taken as cloth.",
+			jn_file_keys, sizeof(JnFileDef)},
 	.generate = generate,
 };

@@ -22,6 +22,7 @@ typedef struct JnFileDef {
 	JnPlacementDef placement;
 	JnTetrahedraDef* tetrahedra; ///< NULL: not asked for
 	JnVoxelsDef* voxels;         ///< NULL: not asked for
+	bool triangles;              ///< take the surface itself, for cloth
 } JnFileDef;
 
 extern const JnKey jn_file_keys[];
