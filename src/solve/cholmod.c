@@ -287,7 +287,8 @@ static JnStatus analyse(Direct* direct, int ordering, const bool* held) {
 	return JN_OK;
 }
 
-static JnStatus create(const void* options, const JnPattern* pattern, const bool* held, JnSolver** out) {
+static JnStatus create(const void* options, const JnPattern* pattern, const bool* held, int threads, JnSolver** out) {
+	(void)threads; // CHOLMOD takes those of BLAS
 	*out = NULL;
 	const size_t entries = 3 * (size_t)pattern->nodes;
 	Direct* direct = calloc(1, sizeof *direct);

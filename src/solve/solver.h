@@ -17,14 +17,26 @@ typedef struct JnSolverCost {
 	size_t bytes;          ///< memory of one factor
 } JnSolverCost;
 
+/// Symmetric matrices, one a slot, known by their products.
+typedef struct JnOperator {
+	void (*apply)(void* user, int slot, const double* in, double* out); ///< out = A in, held entries included
+	void* user;
+	const double* floor; ///< norm of what rounding leaves in a right-hand side: less than that counts as zero
+} JnOperator;
+
 typedef struct JnSolverType {
 	JnRow row;
 	/// Analyse the pattern without the held entries (held[3 * node + axis]). Sets *out, or a status with a message.
-	JnStatus (*create)(const void* options, const JnPattern* pattern, const bool* held, JnSolver** out);
+	JnStatus (*create)(const void* options, const JnPattern* pattern, const bool* held, int threads, JnSolver** out);
 	void (*destroy)(JnSolver*);
+	/// Whether `options` let products stand for the matrix, where the model has them. NULL: never.
+	bool (*takes_products)(const void* options);
+	/// From now on the matrices are those of `products`; factor() gets the diagonal blocks alone. NULL: see above.
+	void (*attach)(JnSolver*, JnOperator products);
 	/// Factor the numbers blocks[9 * block] into `slot`. JN_INDEFINITE when the matrix is not positive definite.
 	JnStatus (*factor)(JnSolver*, int slot, const double* blocks);
-	/// out = A^-1 rhs with the factor of `slot`; held entries of out are 0. Vectors of 3 * nodes; out may be rhs.
+	/// out = A^-1 rhs with the factor of `slot`; held entries of out are 0. Vectors of 3 * nodes; out may be rhs. Solvers
+	/// that iterate also return JN_INDEFINITE, JN_NOT_FINITE and JN_NOT_CONVERGED, and leave out as it was.
 	JnStatus (*solve)(JnSolver*, int slot, const double* rhs, double* out);
 	/// The same for `count` vectors, one behind the other; out may be rhs. NULL: call solve for each.
 	JnStatus (*solve_many)(JnSolver*, int slot, int count, const double* rhs, double* out);
@@ -40,6 +52,7 @@ enum { JN_SOLVER_SLOTS = 4 }; ///< factors that a solver keeps at once
 
 struct JnSolver {
 	const JnSolverType* type;
+	int iterations; ///< of the last solve; 0 where there are none
 };
 
 extern const JnRowList jn_solver_list; ///< rows are &JnSolverType.row
@@ -51,6 +64,17 @@ typedef struct JnDirectDef {
 } JnDirectDef;
 
 extern const JnSolverType jn_solver_direct;
+
+/// Keys of `solver: {method: cg}`.
+typedef struct JnCgDef {
+	double tolerance; ///< of a solve: norm of the residual relative to that of the right-hand side
+	double rough;     ///< the same where an iteration around it measures its own residual
+	int max_iterations;
+	int precondition; ///< 0 block: the diagonal blocks; 1 none
+	int matrix;       ///< 0 auto: products where every law has them; 1 assembled
+} JnCgDef;
+
+extern const JnSolverType jn_solver_cg;
 
 /// Sparse LU (UMFPACK), for matrices that are not symmetric. Its factor() takes the blocks of all rows, those of
 /// pattern->full_column: blocks[9 * k + 3 * r + c] for place k of the full rows. JN_INDEFINITE stands for a singular matrix.

@@ -107,7 +107,8 @@ static JnStatus analyse(Lu* lu) {
 	return JN_OK;
 }
 
-static JnStatus create(const void* options, const JnPattern* pattern, const bool* held, JnSolver** out) {
+static JnStatus create(const void* options, const JnPattern* pattern, const bool* held, int threads, JnSolver** out) {
+	(void)threads;
 	(void)options;
 	*out = NULL;
 	jn_blas_prepare();
