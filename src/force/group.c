@@ -7,7 +7,7 @@
 #include "force/kernel.h"
 #include "math/mat3.h"
 
-static const JnElement* const elements[JN_SHAPE_COUNT] = {
+static const JnElement* const elements[JN_SOLID_SHAPE_COUNT] = {
 	[JN_TET4] = &jn_element_tet4, [JN_TET10] = &jn_element_tet10, [JN_HEX8] = &jn_element_hex8};
 
 /// J[a][r] = dX_a/dxi_r at point p of a cell.
@@ -65,10 +65,10 @@ JnStatus jn_group_create(const JnKernel* kernel, const JnMesh* mesh, int nodes_o
 						 JnArena* arena, JnGroup* group) {
 	const int width = kernel->width, batches = (mesh->cell_count + width - 1) / width;
 	const size_t slots = (size_t)batches * width;
-	*group = (JnGroup){.kernel = kernel, .count = mesh->cell_count, .batches = batches, .density = material->density};
+	*group = (JnGroup){.kernel = kernel, .count = mesh->cell_count, .batches = batches};
 	kernel->law->prepare(material, group->constants);
 	JN_NEW(arena, group->nodes, slots * kernel->nodes);
-	JN_NEW(arena, group->rest, slots * kernel->points * 10);
+	JN_NEW(arena, group->rest, slots * kernel->points * kernel->rest_reals);
 	if (kernel->frozen_reals > 0) {
 		JN_NEW(arena, group->frozen, slots * kernel->points * kernel->frozen_reals);
 		reset_frozen(group);
@@ -79,6 +79,18 @@ JnStatus jn_group_create(const JnKernel* kernel, const JnMesh* mesh, int nodes_o
 		JN_TRY(fill_lane(group, mesh, nodes_offset, slot, cell, is_padding ? 0 : 1));
 	}
 	return JN_OK;
+}
+
+JnStatus jn_solid_build(const JnLaw* law, const void* options, const JnMesh* mesh, int first_node, const char* what,
+						JnArena* arena, JnGroups* out) {
+	const JnKernel* kernel = jn_kernel_find(mesh->shape, law, 0);
+	if (kernel == NULL)
+		return jn_error(JN_BAD_INPUT, "%s.material.law: '%s' does not run on %s elements", what, law->row.name,
+						jn_shape_info[mesh->shape].name);
+	const JnMaterialDef* material = options;
+	*out = (JnGroups){.count = 1, .density = material->density};
+	JN_NEW(arena, out->list, 1);
+	return jn_group_create(kernel, mesh, first_node, material, arena, out->list);
 }
 
 /// integral of N_i N_j over a tetrahedron of volume 1, times 420: 6 and 1 between corners; 32, 16 and 8 between equal,
@@ -131,6 +143,7 @@ void jn_group_cell_mass(const JnMesh* mesh, int cell, double density, double* ou
 	const int nodes = jn_shape_info[mesh->shape].nodes;
 	for (int m = 0; m < nodes * nodes; m++) {
 		const int i = m / nodes, j = m % nodes;
-		out[m] = mesh->shape == JN_TET4 ? mass * (i == j ? 2 : 1) / 20 : mass * tet10_mass_420(i, j) / 420;
+		out[m] = mesh->shape == JN_TET10 ? mass * tet10_mass_420(i, j) / 420
+										 : mass * (i == j ? 2 : 1) / (nodes * (nodes + 1)); // linear on a simplex
 	}
 }

@@ -21,23 +21,42 @@ typedef struct JnMaterialDef {
 	double poisson; ///< nu
 } JnMaterialDef;
 
-/// A constitutive law as scene files name it. What it computes stands in material/<name>.h, compiled into the kernels.
-typedef struct JnLaw {
+typedef struct JnGroup JnGroup;
+typedef struct JnLaw JnLaw;
+
+/// What a law makes of a mesh.
+typedef struct JnGroups {
+	int count;
+	JnGroup* list;
+	double density; ///< [kg/m^3]; of a surface [kg/m^2]
+} JnGroups;
+
+/// A constitutive law as scene files name it. What a solid's computes stands in material/<name>.h, compiled into the
+/// kernels.
+struct JnLaw {
 	JnRow row;
-	void (*prepare)(const JnMaterialDef* def, double constants[JN_LAW_CONSTANTS]); ///< Lame constants and the like
+	/// The element groups of a body, whose nodes get `first_node` added; `options` as row.keys fill them, `what` is the
+	/// key path of the body for messages. JN_BAD_INPUT when the law does not run on the mesh's shape.
+	JnStatus (*build)(const JnLaw*, const void* options, const JnMesh* mesh, int first_node, const char* what,
+					  JnArena* arena, JnGroups* out);
+	void (*prepare)(const JnMaterialDef* def, double constants[JN_LAW_CONSTANTS]); ///< of solids: Lame constants etc.
 	bool is_linear_in_step; ///< force linear in x between two freezes: Newton needs one iteration
-} JnLaw;
+};
 
 extern const JnRowList jn_law_list; ///< rows are &JnLaw.row
 
-typedef struct JnGroup JnGroup;
+/// JnLaw.build of solids: one group, of the kernel of (shape, law).
+JnStatus jn_solid_build(const JnLaw* law, const void* options, const JnMesh* mesh, int first_node, const char* what,
+						JnArena* arena, JnGroups* out);
 
 typedef struct JnKernel {
-	const JnLaw* law;
-	JnShape shape;
+	const JnLaw* law; ///< of a solid; NULL: several laws build groups of this kernel
+	JnShape shape;    ///< of a solid
+	const char* name; ///< of others, such as "spring"
 	int width;        ///< W: elements in a batch
 	int nodes;        ///< nodes of an element
 	int points;       ///< quadrature points of an element
+	int rest_reals;   ///< doubles a point in group->rest
 	int frozen_reals; ///< doubles a point that freeze() keeps; 0: none
 
 	/// out[batch - first][lane] = elastic energy of each element [J], first <= batch < last.
@@ -49,19 +68,27 @@ typedef struct JnKernel {
 	void (*tangent)(const JnGroup*, int first, int last, const double* x, bool definite, double* out);
 	/// Fix what stays constant over a step (rotations) from x, into group->frozen. NULL: nothing to fix.
 	void (*freeze)(JnGroup*, int first, int last, const double* x);
+	/// out[batch - first][3 * nodes][lane] = K p of each element [N], K as tangent() makes it at x. NULL: this kernel's
+	/// matrices must be assembled.
+	void (*product)(const JnGroup*, int first, int last, const double* x, bool definite, const double* p, double* out);
+	/// Break the elements that x strains too much, or that have a node of `doomed` (one a node of the model, or NULL): they
+	/// have no force from then on. Writes their numbers to `broken`, adds the energy that they held to *released [J],
+	/// returns how many. NULL: nothing breaks.
+	int (*damage)(JnGroup*, int first, int last, const double* x, const bool* doomed, int* broken, double* released);
 } JnKernel;
 
-/// A body's elements of one kernel.
+/// Some of a body's elements, of one kernel.
 struct JnGroup {
 	const JnKernel* kernel;
 	int count;   ///< elements
 	int batches; ///< ceil(count / W)
 	int* nodes;  ///< [batches][nodes][W]: node numbers; 3 * node is the offset in x
-	double*
-		rest; ///< [batches][points][10][W]: inverse rest Jacobian, row-major (d xi_r / d X_c), and weight [m^3]; 0 in padding
+	/// [batches][points][rest_reals][W], so that padding adds nothing. Solids: the inverse rest Jacobian, row-major
+	/// (d xi_r / d X_c), and the weight [m^3], which is 0 in padding.
+	double* rest;
 	double* frozen; ///< [batches][points][frozen_reals][W], or NULL
 	double constants[JN_LAW_CONSTANTS];
-	double density; ///< [kg/m^3]
+	double damping; ///< stiffness-proportional damping of this group, beside that of the body [s]
 };
 
 /// The kernel of (shape, law) for the widest unit that this processor has, or for `width` lanes when that is not 0
@@ -77,6 +104,7 @@ JnStatus jn_group_create(const JnKernel* kernel, const JnMesh* mesh, int nodes_o
 						 JnArena* arena, JnGroup* group);
 
 /// Consistent element mass: out[i * nodes + j] = integral of density N_i N_j over `cell` [kg], exact for straight sides.
+/// Of a triangle with the density [kg/m^2], of a point its volume times density.
 void jn_group_cell_mass(const JnMesh* mesh, int cell, double density, double* out);
 
 #endif

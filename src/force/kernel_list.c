@@ -18,7 +18,7 @@ int jn_kernel_best_width(void) {
 
 const JnKernel* jn_kernel_find(JnShape shape, const JnLaw* law, int width) {
 	const JnSolidKernels* kernels = kernels_of_width(width != 0 ? width : jn_kernel_best_width());
-	if (kernels == NULL) return NULL;
+	if (kernels == NULL || shape >= JN_SOLID_SHAPE_COUNT) return NULL;
 	for (int i = 0; i < JN_SOLID_LAW_COUNT; i++) {
 		if ((*kernels)[shape][i].law == law) return &(*kernels)[shape][i];
 	}

@@ -2,8 +2,11 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "force/cloth/cloth.h"
 #include "force/material/law.h"
 #include "force/material/stable_neo_hookean.h"
+#include "force/peridynamic.h"
+#include "force/rigid.h"
 #include "force/solid.h"
 
 static const JnKey material_keys[] = {
@@ -53,6 +56,7 @@ static void prepare_stable(const JnMaterialDef* def, double constants[JN_LAW_CON
 #define LAW_ROW(law_name, prepare_constants, is_linear, words)                                                         \
 	const JnLaw jn_law_##law_name = {                                                                                  \
 		.row = {#law_name, words, material_keys, sizeof(JnMaterialDef)},                                               \
+		.build = jn_solid_build,                                                                                       \
 		.prepare = (prepare_constants),                                                                                \
 		.is_linear_in_step = (is_linear),                                                                              \
 	};
@@ -71,6 +75,10 @@ LAW_ROW(corotated, prepare_lame, false,
 
 static const JnRow* const law_rows[] = {
 #define LAW_POINTER(law, frozen_reals, is_convex) &jn_law_##law.row,
-	JN_SOLID_LAWS(LAW_POINTER)};
+	JN_SOLID_LAWS(LAW_POINTER) & jn_law_mass_spring.row,
+	&jn_law_membrane.row,
+	&jn_law_peridynamic.row,
+	&jn_law_rigid.row,
+};
 
-const JnRowList jn_law_list = {"material", law_rows, JN_SOLID_LAW_COUNT};
+const JnRowList jn_law_list = {"material", law_rows, sizeof law_rows / sizeof *law_rows};

@@ -29,7 +29,7 @@ JN_SOLID_LAWS(JN_DECLARE_LAW)
 #endif
 
 /// Kernels of [shape][law] for 8, 4 and 2 lanes; 8 and 4 exist on x86-64 only.
-typedef JnKernel JnSolidKernels[JN_SHAPE_COUNT][JN_SOLID_LAW_COUNT];
+typedef JnKernel JnSolidKernels[JN_SOLID_SHAPE_COUNT][JN_SOLID_LAW_COUNT];
 
 extern const JnSolidKernels jn_solid_kernels_2;
 #if JN_HAS_WIDE_KERNELS

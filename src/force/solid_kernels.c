@@ -99,6 +99,7 @@ enum {
 		.width = JN_WIDE,                                                                                              \
 		.nodes = shape_name##_NODES,                                                                                   \
 		.points = shape_name##_POINTS,                                                                                 \
+		.rest_reals = REST_REALS,                                                                                      \
 		.frozen_reals = (reals),                                                                                       \
 		.energy = shape_name##_##law_name##_energy,                                                                    \
 		.force = shape_name##_##law_name##_force,                                                                      \
