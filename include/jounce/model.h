@@ -61,6 +61,12 @@ typedef struct JnDriveDef {
 	int others;          ///< what the other axes do: 0 held, 1 free
 } JnDriveDef;
 
+/// A constant force on nodes.
+typedef struct JnLoadDef {
+	JnSelectDef where;
+	double force[3]; ///< on all of them together, shared in proportion to their masses [N]
+} JnLoadDef;
+
 /// Rayleigh damping D = alpha M + beta K.
 typedef struct JnDampingDef {
 	double alpha;  ///< [1/s]
@@ -92,11 +98,21 @@ typedef struct JnWindDef {
 	int tangent;        ///< derivatives of the wind's force in K and D: 0 none, 1 exact
 } JnWindDef;
 
+/// How points of peridynamic bodies, rigid balls and plates keep each other away: springs that push, and never pull.
+typedef struct JnRepulsionDef {
+	double stiffness;  ///< of two points: force density a length, in micromoduli c over the horizon
+	double reach;      ///< distance at which they meet, in half the sum of their spacings
+	double rest_share; ///< and at most, in their distance at rest
+	double margin;     ///< pairs this much farther apart are watched, in spacings
+} JnRepulsionDef;
+
 /// How a body takes part in contact.
 typedef struct JnBodyContactDef {
 	bool active;         ///< false: it passes through everything
 	bool self;           ///< also against itself
 	const char* surface; ///< name of its contact material, for friction; NULL: "default"
+	double
+		offset; ///< distance that its surface keeps from obstacles [m]; NAN: a twentieth of the mean edge of a cloth, 0 of others
 } JnBodyContactDef;
 
 /// A rigid thing that never moves, such as a floor.
@@ -120,14 +136,16 @@ typedef struct JnBodyDef {
 	JnItems sets;  ///< JnSetDef
 	JnItems fix;   ///< JnFixDef
 	JnItems drive; ///< JnDriveDef
+	JnItems loads; ///< JnLoadDef
 } JnBodyDef;
 
 typedef struct JnModelDef {
-	double gravity[3]; ///< [m/s^2]
-	JnItems bodies;    ///< JnBodyDef
-	JnItems obstacles; ///< JnObstacleDef
-	JnWindDef* wind;   ///< NULL: no air at all
-	JnVariant solver;  ///< row of the solver list
+	double gravity[3];         ///< [m/s^2]
+	JnItems bodies;            ///< JnBodyDef
+	JnItems obstacles;         ///< JnObstacleDef
+	JnWindDef* wind;           ///< NULL: no air at all
+	JnRepulsionDef* repulsion; ///< NULL: points pass through each other, and there is nothing rigid but obstacles
+	JnVariant solver;          ///< row of the solver list
 } JnModelDef;
 
 /// The rows of JnModelDef in a scene file.
@@ -137,6 +155,9 @@ extern const JnKey jn_body_contact_keys[]; ///< of JnBodyContactDef
 
 /// The rows of JnObstacleDef in a scene file.
 extern const JnKey jn_obstacle_keys[];
+
+/// The rows of JnRepulsionDef in a scene file.
+extern const JnKey jn_repulsion_keys[];
 
 /// The rows of JnWindDef in a scene file.
 extern const JnKey jn_wind_keys[];
@@ -154,7 +175,7 @@ int jn_model_nearest(const JnModel* model, const double point[3]); ///< node who
 /// Energies [J] and momenta of a state.
 typedef struct JnEnergies {
 	double kinetic, elastic;
-	double gravity;     ///< potential, 0 at the rest positions
+	double gravity;     ///< potential of gravity and of the bodies' loads, 0 at the rest positions
 	double momentum[3]; ///< [kg m/s]
 	double angular[3];  ///< about the origin [kg m^2/s]
 } JnEnergies;

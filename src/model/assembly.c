@@ -11,17 +11,17 @@ enum { FORCE_CHUNK = 64, TANGENT_CHUNK = 16, MOST_BLOCK_PAIRS = 55, MOST_NODES =
 // Elements that make another thread worth waking: a fork costs 50 to 100 us, a force 0.1 us, a tangent 1 us an element.
 enum { FORCE_GRAIN = 2048, TANGENT_GRAIN = 1024 };
 
-typedef struct BodyMap {
+typedef struct GroupMap {
 	int pairs;  // local node pairs (i, j <= i)
-	int* block; // [batches][pairs][W]: block of the pattern, ~block when transposed
+	int* block; // [batches][pairs][W]: block of the pattern, ~block when transposed; NULL: matrix-free
 	int* low;   // [batches]: lowest and highest node of a batch
 	int* high;
-} BodyMap;
+} GroupMap;
 
 struct JnAssembly {
 	const JnModel* model;
 	int elements;
-	BodyMap* maps;    // one a body
+	GroupMap* maps;   // one a group
 	double** buffers; // one a thread, of a tangent chunk
 	double* chunk_energy;
 };
@@ -44,15 +44,19 @@ static int node_at(const JnGroup* group, int batch, int i, int lane) {
 	return group->nodes[((size_t)batch * (size_t)kernel->nodes + (size_t)i) * (size_t)kernel->width + (size_t)lane];
 }
 
-static void map_batch(const JnPattern* pattern, const JnGroup* group, int batch, BodyMap* map) {
+static void map_batch(const JnPattern* pattern, const JnGroup* group, int batch, GroupMap* map) {
 	const int width = group->kernel->width;
 	int low = pattern->nodes, high = -1;
-	for (int lane = 0; lane < width; ++lane) {
-		int* block = map->block + (size_t)batch * (size_t)map->pairs * (size_t)width + lane;
+	for (int lane = 0; lane < width; ++lane)
 		for (int i = 0; i < group->kernel->nodes; ++i) {
 			const int row = node_at(group, batch, i, lane);
 			low = row < low ? row : low;
 			high = row > high ? row : high;
+		}
+	for (int lane = 0; lane < width && map->block != NULL; ++lane) {
+		int* block = map->block + (size_t)batch * (size_t)map->pairs * (size_t)width + lane;
+		for (int i = 0; i < group->kernel->nodes; ++i) {
+			const int row = node_at(group, batch, i, lane);
 			for (int j = 0; j <= i; ++j, block += width) {
 				const int column = node_at(group, batch, j, lane);
 				*block = row >= column ? jn_pattern_find(pattern, row, column) : ~jn_pattern_find(pattern, column, row);
@@ -63,10 +67,11 @@ static void map_batch(const JnPattern* pattern, const JnGroup* group, int batch,
 	map->high[batch] = high;
 }
 
-static JnStatus map_body(JnModel* model, const JnGroup* group, BodyMap* map) {
+static JnStatus map_group(JnModel* model, const JnGroup* group, GroupMap* map) {
 	const int nodes = group->kernel->nodes;
 	map->pairs = nodes * (nodes + 1) / 2;
-	JN_NEW(&model->arena, map->block, (size_t)group->batches * (size_t)map->pairs * (size_t)group->kernel->width);
+	const size_t places = (size_t)group->batches * (size_t)map->pairs * (size_t)group->kernel->width;
+	if (!model->is_matrix_free) JN_NEW(&model->arena, map->block, places);
 	JN_NEW(&model->arena, map->low, group->batches);
 	JN_NEW(&model->arena, map->high, group->batches);
 	for (int batch = 0; batch < group->batches; ++batch) map_batch(&model->pattern, group, batch, map);
@@ -77,12 +82,12 @@ JnStatus jn_assembly_create(JnModel* model, JnAssembly** out) {
 	JnAssembly* assembly;
 	JN_NEW(&model->arena, assembly, 1);
 	assembly->model = model;
-	JN_NEW(&model->arena, assembly->maps, model->body_count);
+	JN_NEW(&model->arena, assembly->maps, model->group_count + 1);
 	size_t chunks = 0;
-	for (int b = 0; b < model->body_count; ++b) {
-		JN_TRY(map_body(model, &model->bodies[b].group, &assembly->maps[b]));
-		assembly->elements += model->bodies[b].group.count;
-		chunks += (size_t)model->bodies[b].group.count / FORCE_CHUNK + 1;
+	for (int g = 0; g < model->group_count; ++g) {
+		JN_TRY(map_group(model, &model->groups[g], &assembly->maps[g]));
+		assembly->elements += model->groups[g].count;
+		chunks += (size_t)model->groups[g].count / FORCE_CHUNK + 1;
 	}
 	JN_NEW(&model->arena, assembly->chunk_energy, chunks);
 	JN_NEW(&model->arena, assembly->buffers, model->threads);
@@ -92,13 +97,15 @@ JnStatus jn_assembly_create(JnModel* model, JnAssembly** out) {
 	return JN_OK;
 }
 
-static bool touches(const BodyMap* map, int first, int last, Range range) {
+static bool touches(const GroupMap* map, int first, int last, Range range) {
 	for (int batch = first; batch < last; ++batch)
 		if (map->low[batch] < range.high && map->high[batch] >= range.low) return true;
 	return false;
 }
 
-static void scatter_force(const JnGroup* group, int batch, const double* element, Range range, double* f) {
+// f += scale * what an element has for each of its nodes.
+static void scatter_force(const JnGroup* group, int batch, const double* element, double scale, Range range,
+						  double* f) {
 	const int width = group->kernel->width, lanes = lanes_in(group, batch);
 	for (int lane = 0; lane < lanes; ++lane)
 		for (int i = 0; i < group->kernel->nodes; ++i) {
@@ -106,22 +113,70 @@ static void scatter_force(const JnGroup* group, int batch, const double* element
 			if (node < range.low || node >= range.high) continue;
 			const double* from = element + 3 * i * width + lane;
 			double* to = f + 3 * (size_t)node;
-			to[0] += from[0];
-			to[1] += from[width];
-			to[2] += from[2 * width];
+			to[0] += scale * from[0];
+			to[1] += scale * from[width];
+			to[2] += scale * from[2 * width];
 		}
 }
 
+static void put(double a, double b, double c, double* to) {
+	to[0] = a;
+	to[1] = b;
+	to[2] = c;
+}
+
+// The same for elements of two nodes: the same sums in the same order, and faster. Bonds stand in runs with the same first
+// node, whose sum stays in registers: in memory, each would wait for the one before. No arrays: compilers keep those in
+// memory.
+static void scatter_pairs(const JnGroup* group, int batch, const double* element, double scale, Range range,
+						  double* f) {
+	const int width = group->kernel->width, lanes = lanes_in(group, batch);
+	const int *first = group->nodes + 2 * (size_t)batch * (size_t)width, *second = first + width;
+	const double *a = element, *b = a + width, *c = b + width, *d = c + width, *e = d + width, *g = e + width;
+	int open = -1; // node whose sum is s0, s1, s2, to be put to `at`
+	double s0 = 0, s1 = 0, s2 = 0, nowhere[3] = {0}, *at = nowhere;
+	for (int lane = 0; lane < lanes; ++lane) {
+		const int i = first[lane], j = second[lane];
+		double* to = f + 3 * (size_t)j;
+		if (i != open) {
+			put(s0, s1, s2, at);
+			open = i;
+			at = i >= range.low && i < range.high ? f + 3 * (size_t)i : nowhere;
+			s0 = at[0];
+			s1 = at[1];
+			s2 = at[2];
+		}
+		s0 += scale * a[lane];
+		s1 += scale * b[lane];
+		s2 += scale * c[lane];
+		if (j < range.low || j >= range.high) continue;
+		to[0] += scale * d[lane];
+		to[1] += scale * e[lane];
+		to[2] += scale * g[lane];
+	}
+	put(s0, s1, s2, at);
+}
+
+// Batches first <= batch < last, whose numbers stand in `buffer`.
+static void scatter_chunk(const JnGroup* group, int first, int last, const double* buffer, double scale, Range range,
+						  double* f) {
+	const int stride = 3 * group->kernel->nodes * group->kernel->width;
+	for (int batch = first; batch < last; ++batch, buffer += stride)
+		if (group->kernel->nodes == 2)
+			scatter_pairs(group, batch, buffer, scale, range, f);
+		else
+			scatter_force(group, batch, buffer, scale, range, f);
+}
+
 static void add_forces(const JnAssembly* assembly, const double* x, Range range, double* buffer, double* f) {
-	for (int b = 0; b < assembly->model->body_count; ++b) {
-		const JnGroup* group = &assembly->model->bodies[b].group;
-		const int step = batches_in(FORCE_CHUNK, group), stride = 3 * group->kernel->nodes * group->kernel->width;
+	for (int g = 0; g < assembly->model->group_count; ++g) {
+		const JnGroup* group = &assembly->model->groups[g];
+		const int step = batches_in(FORCE_CHUNK, group);
 		for (int first = 0; first < group->batches; first += step) {
 			const int last = first + step < group->batches ? first + step : group->batches;
-			if (!touches(&assembly->maps[b], first, last, range)) continue;
+			if (!touches(&assembly->maps[g], first, last, range)) continue;
 			group->kernel->force(group, first, last, x, buffer);
-			for (int batch = first; batch < last; ++batch)
-				scatter_force(group, batch, buffer + (batch - first) * stride, range, f);
+			scatter_chunk(group, first, last, buffer, 1, range, f);
 		}
 	}
 }
@@ -136,6 +191,35 @@ void jn_assembly_force(JnAssembly* assembly, const double* x, double* f) {
 	const int team = jn_threads_for((size_t)assembly->elements, FORCE_GRAIN, assembly->model->threads);
 #pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
 	for (int t = 0; t < team; ++t) add_forces(assembly, x, range_of(assembly, t, team), assembly->buffers[t], f);
+}
+
+typedef struct Product {
+	JnTangentAt tangent;
+	double scale;
+	const double* p;
+	double* y;
+} Product;
+
+static void add_products(const JnAssembly* assembly, const Product* product, Range range, double* buffer) {
+	const JnTangentAt* at = &product->tangent;
+	for (int g = 0; g < assembly->model->group_count; ++g) {
+		const JnGroup* group = &assembly->model->groups[g];
+		const int step = batches_in(FORCE_CHUNK, group);
+		const double scale = product->scale * (at->weight != NULL ? at->weight[g] : 1);
+		for (int first = 0; first < group->batches && scale != 0; first += step) {
+			const int last = first + step < group->batches ? first + step : group->batches;
+			if (!touches(&assembly->maps[g], first, last, range)) continue;
+			group->kernel->product(group, first, last, at->x, at->definite == JN_DEFINITE, product->p, buffer);
+			scatter_chunk(group, first, last, buffer, scale, range, product->y);
+		}
+	}
+}
+
+void jn_assembly_product(JnAssembly* assembly, JnTangentAt tangent, double scale, const double* p, double* y) {
+	const Product product = {.tangent = tangent, .scale = scale, .p = p, .y = y};
+	const int team = jn_threads_for((size_t)assembly->elements, FORCE_GRAIN, assembly->model->threads);
+#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
+	for (int t = 0; t < team; ++t) add_products(assembly, &product, range_of(assembly, t, team), assembly->buffers[t]);
 }
 
 static void add_block(double* to, const double* from, int width, double weight) {
@@ -153,7 +237,8 @@ typedef struct Target {
 	double* blocks;
 } Target;
 
-static void scatter_tangent(const JnGroup* group, const BodyMap* map, int batch, const double* element, Target target) {
+static void scatter_tangent(const JnGroup* group, const GroupMap* map, int batch, const double* element,
+							Target target) {
 	const int width = group->kernel->width, lanes = lanes_in(group, batch);
 	const int* block = map->block + (size_t)batch * (size_t)map->pairs * (size_t)width;
 	for (int lane = 0; lane < lanes; ++lane)
@@ -171,12 +256,23 @@ static void scatter_tangent(const JnGroup* group, const BodyMap* map, int batch,
 			}
 }
 
+// Of a model that is matrix-free: block i is that of node i.
+static void scatter_diagonal(const JnGroup* group, int batch, const double* element, Target target) {
+	const int width = group->kernel->width, lanes = lanes_in(group, batch);
+	for (int lane = 0; lane < lanes; ++lane)
+		for (int i = 0; i < group->kernel->nodes; ++i) {
+			const int node = node_at(group, batch, i, lane), pair = i * (i + 1) / 2 + i;
+			if (node < target.range.low || node >= target.range.high) continue;
+			add_block(target.blocks + 9 * (size_t)node, element + 9 * pair * width + lane, width, target.weight);
+		}
+}
+
 static void add_tangents(const JnAssembly* assembly, const double* x, JnDefinite definite, const double* weight,
 						 double* buffer, Target target) {
-	for (int b = 0; b < assembly->model->body_count; ++b) {
-		const JnGroup* group = &assembly->model->bodies[b].group;
-		const BodyMap* map = &assembly->maps[b];
-		target.weight = weight != NULL ? weight[b] : 1;
+	for (int g = 0; g < assembly->model->group_count; ++g) {
+		const JnGroup* group = &assembly->model->groups[g];
+		const GroupMap* map = &assembly->maps[g];
+		target.weight = weight != NULL ? weight[g] : 1;
 		if (target.weight == 0) continue;
 		const int step = batches_in(TANGENT_CHUNK, group), stride = 9 * map->pairs * group->kernel->width;
 		for (int first = 0; first < group->batches; first += step) {
@@ -184,7 +280,10 @@ static void add_tangents(const JnAssembly* assembly, const double* x, JnDefinite
 			if (!touches(map, first, last, target.range)) continue;
 			group->kernel->tangent(group, first, last, x, definite == JN_DEFINITE, buffer);
 			for (int batch = first; batch < last; ++batch)
-				scatter_tangent(group, map, batch, buffer + (batch - first) * stride, target);
+				if (map->block != NULL)
+					scatter_tangent(group, map, batch, buffer + (batch - first) * stride, target);
+				else
+					scatter_diagonal(group, batch, buffer + (batch - first) * stride, target);
 		}
 	}
 }
@@ -215,7 +314,7 @@ static double chunk_sum(const JnGroup* group, int first, int last, const double*
 	return sum;
 }
 
-static double body_energy(JnAssembly* assembly, const JnGroup* group, const double* x) {
+static double group_energy(JnAssembly* assembly, const JnGroup* group, const double* x) {
 	const int step = batches_in(FORCE_CHUNK, group);
 	const int chunks = (group->batches + step - 1) / step;
 	const int team = jn_threads_for((size_t)group->count, FORCE_GRAIN, assembly->model->threads);
@@ -233,15 +332,15 @@ static double body_energy(JnAssembly* assembly, const JnGroup* group, const doub
 
 double jn_assembly_energy(JnAssembly* assembly, const double* x) {
 	double sum = 0;
-	for (int b = 0; b < assembly->model->body_count; ++b)
-		sum += body_energy(assembly, &assembly->model->bodies[b].group, x);
+	for (int g = 0; g < assembly->model->group_count; ++g)
+		sum += group_energy(assembly, &assembly->model->groups[g], x);
 	return sum;
 }
 
 bool jn_assembly_freeze(JnAssembly* assembly, const double* x) {
 	bool froze = false;
-	for (int b = 0; b < assembly->model->body_count; ++b) {
-		JnGroup* group = &assembly->model->bodies[b].group;
+	for (int g = 0; g < assembly->model->group_count; ++g) {
+		JnGroup* group = &assembly->model->groups[g];
 		if (group->kernel->freeze == NULL) continue;
 		group->kernel->freeze(group, 0, group->batches, x);
 		froze = true;

@@ -19,9 +19,18 @@ JnStatus jn_assembly_create(JnModel* model, JnAssembly** assembly);
 /// f += internal forces at x.
 void jn_assembly_force(JnAssembly* assembly, const double* x, double* f);
 
-/// blocks[9 * block] = sum over bodies of weight[body] * K; weight NULL: 1 for all.
+/// blocks[9 * block] = sum over groups of weight[group] * K; weight NULL: 1 for all.
 void jn_assembly_tangent(JnAssembly* assembly, const double* x, JnDefinite definite, const double* weight,
 						 double* blocks);
+
+/// y += scale * sum over groups of weight[group] * K p, K at x, without a matrix: for models that are matrix-free.
+typedef struct JnTangentAt {
+	const double* x;
+	JnDefinite definite;
+	const double* weight; ///< one a group; NULL: 1 for all
+} JnTangentAt;
+
+void jn_assembly_product(JnAssembly* assembly, JnTangentAt tangent, double scale, const double* p, double* y);
 
 /// Elastic energy [J], summed in element order.
 double jn_assembly_energy(JnAssembly* assembly, const double* x);

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/log.h"
 #include "base/timer.h"
 
 enum { SLOT = 0 }; // of each body's solver, which keeps one factor
@@ -44,13 +45,23 @@ static JnStatus create_body(JnModel* model, int index, JnBodyMatrices* matrices)
 	matrix->blocks = matrices->blocks + 9 * (size_t)model->pattern.column_start[body->first_node];
 	JN_TRY(cut_pattern(&model->pattern, body->first_node, nodes, &model->arena, &matrix->pattern));
 	if (!has_free_entry(matrix->held, 3 * nodes)) return JN_OK;
-	return jn_solver_direct.create(&options, &matrix->pattern, matrix->held, &matrix->solver);
+	return jn_solver_direct.create(&options, &matrix->pattern, matrix->held, model->threads, &matrix->solver);
 }
 
 JnStatus jn_body_matrices_create(JnModel* model, const bool* wanted, JnBodyMatrices* out) {
 	*out = (JnBodyMatrices){.sys = (JnModelSystem*)model->system};
+	for (int b = 0; b < model->body_count; ++b)
+		if (wanted[b] && model->bodies[b].mesh.shape == JN_POINT1)
+			return jn_error(
+				JN_BAD_INPUT,
+				"contact: '%s' is made of points, which have no surface; take contact away and give repulsion, or "
+				"set contact.active: false in this body",
+				model->bodies[b].name);
+	if (model->is_matrix_free)
+		return jn_error(JN_BAD_INPUT,
+						"contact: needs assembled matrices; set solver.matrix: assembled, or take away contact");
 	JN_NEW(&model->arena, out->blocks, 9 * (size_t)model->pattern.blocks);
-	JN_NEW(&model->arena, out->weight, model->body_count);
+	JN_NEW(&model->arena, out->weight, model->group_count + 1);
 	JN_NEW(&model->arena, out->bodies, model->body_count);
 	for (int b = 0; b < model->body_count; ++b)
 		if (wanted[b]) JN_TRY(create_body(model, b, out));
@@ -85,7 +96,9 @@ void jn_body_matrices_fill(JnBodyMatrices* matrices, const bool* wanted, JnShift
 	const JnModelSystem* sys = matrices->sys;
 	const int count = sys->model->body_count;
 	const double began = jn_seconds();
-	for (int b = 0; b < count; ++b) matrices->weight[b] = wanted[b] ? 1 : 0;
+	for (int b = 0; b < count; ++b)
+		for (int g = 0; g < sys->model->bodies[b].group_count; ++g)
+			matrices->weight[sys->model->bodies[b].first_group + g] = wanted[b] ? 1 : 0;
 	jn_assembly_tangent(sys->assembly, x, JN_DEFINITE, matrices->weight, matrices->blocks);
 	++sys->base.report->tangents;
 	for (int b = 0; b < count; ++b)

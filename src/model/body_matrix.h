@@ -17,7 +17,7 @@ typedef struct JnBodyMatrix {
 typedef struct JnBodyMatrices {
 	JnModelSystem* sys;
 	double* blocks;       ///< 9 a block of the model's pattern: the matrices of all bodies
-	double* weight;       ///< one a body: 1 for those that were asked for, 0 for others
+	double* weight;       ///< one a group: 1 for those of bodies that were asked for, 0 for others
 	JnBodyMatrix* bodies; ///< one a body
 } JnBodyMatrices;
 

@@ -17,6 +17,16 @@ const JnKey jn_body_contact_keys[] = {
 	 .field = offsetof(JnBodyContactDef, surface),
 	 .text = "default",
 	 .meaning = "name of its contact material, by which friction is looked up"},
+	{.name = "offset",
+	 .kind = JN_REAL,
+	 .field = offsetof(JnBodyContactDef, offset),
+	 .low = 0,
+	 .high = 1e6,
+	 .absent_allowed = true,
+	 .unit = "m",
+	 .meaning =
+		 "distance that its vertices keep from obstacles, such as half the thickness of a cloth; when absent, a "
+		 "twentieth of the mean edge of a cloth, so that its triangles clear balls of five edges, and 0 of others"},
 	{0},
 };
 

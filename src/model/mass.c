@@ -19,7 +19,7 @@ static void add_body(JnModel* model, const JnBody* body) {
 	const int nodes = jn_shape_info[body->mesh.shape].nodes;
 	double matrix[MOST_NODES * MOST_NODES];
 	for (int cell = 0; cell < body->mesh.cell_count; ++cell) {
-		jn_group_cell_mass(&body->mesh, cell, body->group.density, matrix);
+		jn_group_cell_mass(&body->mesh, cell, body->density, matrix);
 		if (body->mass_form == 1) lump(body->mesh.shape, nodes, matrix);
 		const int* node = body->cells + (size_t)cell * (size_t)nodes;
 		for (int i = 0; i < nodes; ++i)
@@ -50,8 +50,8 @@ JnStatus jn_mass_build(JnModel* model) {
 	model->mass_is_diagonal = true;
 	for (int b = 0; b < model->body_count; ++b) {
 		has_alpha |= model->bodies[b].damping.alpha > 0;
-		model->has_beta |= model->bodies[b].damping.beta > 0;
-		model->mass_is_diagonal &= model->bodies[b].mass_form == 1;
+		model->has_beta |= jn_body_has_beta(model, &model->bodies[b]);
+		model->mass_is_diagonal &= model->bodies[b].mass_form == 1 || model->bodies[b].mesh.shape == JN_POINT1;
 	}
 	JN_NEW(&model->arena, model->mass, model->pattern.blocks);
 	JN_NEW(&model->arena, model->nodal_mass, model->node_count);

@@ -3,12 +3,16 @@
 // exact tangent of a wind the matrix is not symmetric, and LU takes the place of Cholesky.
 #include <string.h>
 
+#include "model/repulsion.h"
 #include "model/system.h"
 #include "model/wind.h"
 
 // What a new tangent and factor cost, in iterations that use an old one (a solve, a force, a product with M). Larger
 // factors run at higher speed, so that the ratio hardly depends on size: measured 18 for the beam of 825 nodes.
 static const double refresh_cost = 16;
+
+// Where the solver iterates, a new tangent is one product among many.
+static const double refresh_cost_iterative = 0.5;
 
 static bool depends_on_state(JnShift shift) {
 	return shift.damping != 0 || shift.stiffness != 0;
@@ -56,19 +60,24 @@ static JnStatus factor_scratch(const JnModelMatrix* matrix) {
 	return solver->type->factor(solver, matrix->slot, sys->full);
 }
 
+static JnStatus factor_definite(JnModelMatrix* matrix) {
+	JnModelSystem* sys = (JnModelSystem*)matrix->base.sys;
+	++sys->base.report->indefinite;
+	jn_assembly_tangent(sys->assembly, sys->linear_x, JN_DEFINITE, NULL, sys->scratch);
+	if (sys->model->repulsion != NULL) jn_repulsion_add_diagonal(sys->model->repulsion, JN_DEFINITE, sys->scratch);
+	combine(sys, matrix->shift, sys->scratch);
+	matrix->is_definite = true;
+	return factor_scratch(matrix);
+}
+
 static JnStatus factor(JnModelMatrix* matrix) {
 	JnModelSystem* sys = (JnModelSystem*)matrix->base.sys;
 	combine(sys, matrix->shift, sys->stiffness);
+	matrix->is_definite = false;
 	JnStatus status = factor_scratch(matrix);
-	if (status == JN_INDEFINITE && matrix->shift.stiffness != 0) {
-		++sys->base.report->indefinite;
-		jn_assembly_tangent(sys->assembly, sys->linear_x, JN_DEFINITE, NULL, sys->scratch);
-		combine(sys, matrix->shift, sys->scratch);
-		status = factor_scratch(matrix);
-	}
-	if (status != JN_OK) return status;
-	matrix->base.is_factored = true;
-	return JN_OK;
+	if (status == JN_INDEFINITE && matrix->shift.stiffness != 0) status = factor_definite(matrix);
+	matrix->base.is_factored = status == JN_OK;
+	return status;
 }
 
 static void divide_by_mass(const JnModel* model, double mass, const double* rhs, double* out) {
@@ -78,6 +87,14 @@ static void divide_by_mass(const JnModel* model, double mass, const double* rhs,
 
 typedef JnStatus Solve(JnSolver*, int slot, const double* rhs, double* out);
 
+static JnStatus solve_with(const JnModelMatrix* matrix, Solve* solve, const double* rhs, JnVec out) {
+	JnSolver* solver = solver_of(matrix);
+	const JnStatus status = solve(solver, matrix->slot, rhs, out);
+	matrix->base.sys->report->iterations += solver->iterations;
+	return status;
+}
+
+// A solver that iterates may find out only now that the matrix is indefinite; `out`, which may be rhs, is then untouched.
 static JnStatus solve_by(JnMatrix* base, Solve* solve, const double* rhs, JnVec out) {
 	JnModelMatrix* matrix = (JnModelMatrix*)base;
 	JnModelSystem* sys = (JnModelSystem*)base->sys;
@@ -87,7 +104,12 @@ static JnStatus solve_by(JnMatrix* base, Solve* solve, const double* rhs, JnVec 
 	}
 	++sys->base.report->solves;
 	if (!matrix->base.is_factored) JN_TRY(factor(matrix));
-	return solve(solver_of(matrix), matrix->slot, rhs, out);
+	JnStatus status = solve_with(matrix, solve, rhs, out);
+	if (status == JN_INDEFINITE && matrix->shift.stiffness != 0 && !matrix->is_definite) {
+		JN_TRY(factor_definite(matrix));
+		status = solve_with(matrix, solve, rhs, out);
+	}
+	return status;
 }
 
 static JnStatus solve(JnMatrix* base, const double* rhs, JnVec out) {
@@ -98,11 +120,28 @@ static JnStatus approximate(JnMatrix* base, const double* rhs, JnVec out) {
 	return solve_by(base, solver_of((JnModelMatrix*)base)->type->approximate, rhs, out);
 }
 
-static void apply(JnMatrix* base, const double* in, JnVec out) {
-	const JnModelMatrix* matrix = (const JnModelMatrix*)base;
-	const JnModelSystem* sys = (const JnModelSystem*)base->sys;
+// out += scale * K in, K at linear_x.
+static void apply_stiffness(const JnModelSystem* sys, JnDefinite definite, double scale, const double* in,
+							double* out) {
+	const JnTangentAt at = {.x = sys->linear_x, .definite = definite};
+	if (sys->model->is_matrix_free)
+		jn_assembly_product(sys->assembly, at, scale, in, out);
+	else
+		jn_blocks_apply(&sys->model->pattern, sys->stiffness, scale, in, out, sys->model->threads);
+	if (sys->model->repulsion != NULL) jn_repulsion_product(sys->model->repulsion, definite, scale, in, out);
+}
+
+void jn_model_apply_damping(const JnModelSystem* sys, double scale, const double* in, double* out) {
+	const JnTangentAt at = {.x = sys->damping_x, .definite = JN_DEFINITE, .weight = sys->beta};
+	if (sys->damping == NULL) return;
+	if (sys->model->is_matrix_free)
+		jn_assembly_product(sys->assembly, at, scale, in, out);
+	else
+		jn_blocks_apply(&sys->model->pattern, sys->damping, scale, in, out, sys->model->threads);
+}
+
+static void apply_shifted(const JnModelSystem* sys, JnShift shift, JnDefinite definite, const double* in, JnVec out) {
 	const JnModel* model = sys->model;
-	const JnShift shift = matrix->shift;
 	memset(out, 0, 3 * (size_t)model->node_count * sizeof *out);
 	if (model->mass_is_diagonal)
 		for (int k = 0; k < 3 * model->node_count; ++k) out[k] = shift.mass * model->nodal_mass[k / 3] * in[k];
@@ -110,11 +149,19 @@ static void apply(JnMatrix* base, const double* in, JnVec out) {
 		jn_scalars_apply(&model->pattern, model->mass, shift.mass, in, out, model->threads);
 	if (shift.damping != 0 && sys->alpha_mass != NULL)
 		jn_scalars_apply(&model->pattern, sys->alpha_mass, shift.damping, in, out, model->threads);
-	if (shift.damping != 0 && sys->damping != NULL)
-		jn_blocks_apply(&model->pattern, sys->damping, shift.damping, in, out, model->threads);
-	if (shift.stiffness != 0)
-		jn_blocks_apply(&model->pattern, sys->stiffness, shift.stiffness, in, out, model->threads);
+	if (shift.damping != 0) jn_model_apply_damping(sys, shift.damping, in, out);
+	if (shift.stiffness != 0) apply_stiffness(sys, definite, shift.stiffness, in, out);
 	if (sys->unsymmetric != NULL) jn_wind_apply(model->wind, shift, in, out);
+}
+
+static void apply(JnMatrix* base, const double* in, JnVec out) {
+	apply_shifted((const JnModelSystem*)base->sys, ((const JnModelMatrix*)base)->shift, JN_EXACT, in, out);
+}
+
+void jn_model_matrix_product(void* user, int slot, const double* in, double* out) {
+	const JnModelSystem* sys = user;
+	const JnModelMatrix* matrix = &sys->matrices[slot];
+	apply_shifted(sys, matrix->shift, matrix->is_definite ? JN_DEFINITE : JN_EXACT, in, out);
 }
 
 static const JnMatrixOps matrix_ops = {.apply = apply, .solve = solve, .approximate = approximate};
@@ -125,6 +172,7 @@ static bool same_shift(JnShift a, JnShift b) {
 
 JnStatus jn_model_matrix(JnModelSystem* sys, JnShift shift, JnMatrix** out) {
 	JnModelMatrix* chosen = &sys->matrices[0];
+	const double cost = sys->solver->type->attach != NULL ? refresh_cost_iterative : refresh_cost;
 	for (int i = 0; i < JN_SOLVER_SLOTS; ++i) {
 		JnModelMatrix* matrix = &sys->matrices[i];
 		if (matrix->is_used && same_shift(matrix->shift, shift)) {
@@ -134,7 +182,7 @@ JnStatus jn_model_matrix(JnModelSystem* sys, JnShift shift, JnMatrix** out) {
 		if (matrix->last_use < chosen->last_use) chosen = matrix;
 	}
 	if (!chosen->is_used || !same_shift(chosen->shift, shift))
-		*chosen = (JnModelMatrix){.base = {.ops = &matrix_ops, .sys = &sys->base, .refresh_cost = refresh_cost},
+		*chosen = (JnModelMatrix){.base = {.ops = &matrix_ops, .sys = &sys->base, .refresh_cost = cost},
 								  .shift = shift,
 								  .slot = (int)(chosen - sys->matrices),
 								  .is_used = true};

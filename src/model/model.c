@@ -7,20 +7,15 @@
 #include <string.h>
 
 #include "base/log.h"
-#include "base/random.h"
 #include "mesh/shape/shape.h"
+#include "model/constrain.h"
+#include "model/load.h"
 #include "model/mass.h"
 #include "model/obstacles.h"
+#include "model/repulsion.h"
 #include "model/select.h"
 #include "model/system.h"
 #include "model/wind.h"
-
-// What the axes of a node do while constraints are collected: 0 free, 1 held at rest, 2 + i driven by motions[i].
-typedef struct Axes {
-	int* use;                  // 3 * node_count
-	const JnVariant** motions; // those met so far
-	int motion_count;
-} Axes;
 
 static JnStatus mesh_body(const JnBodyDef* def, int index, JnModel* model) {
 	JnBody* body = &model->bodies[index];
@@ -71,121 +66,99 @@ static JnStatus build_meshes(const JnItems* defs, JnModel* model) {
 	return JN_OK;
 }
 
-static JnStatus axes_mask(const char* axes, const char* what, bool mask[3]) {
-	for (const char* c = axes; *c != '\0'; ++c) {
-		if (*c < 'x' || *c > 'z')
-			return jn_error(JN_BAD_INPUT, "%s.axes: '%s' is more than x, y and z; use only these letters", what, axes);
-		mask[*c - 'x'] = true;
-	}
-	return *axes != '\0' ? JN_OK : jn_error(JN_BAD_INPUT, "%s.axes: empty; name at least one of x, y, z", what);
-}
-
-static void use_axis(Axes* axes, const JnBody* body, const bool* chosen, int axis, int use) {
-	for (int i = 0; i < body->mesh.node_count; ++i)
-		if (chosen[i]) axes->use[3 * (body->first_node + i) + axis] = use;
-}
-
-static JnStatus fix_nodes(const JnFixDef* def, const char* what, const JnBody* body, bool* chosen, Axes* axes) {
-	char where[128];
-	bool mask[3] = {false, false, false};
-	snprintf(where, sizeof where, "%s.where", what);
-	JN_TRY(jn_select_nodes(&def->where, &body->mesh, where, chosen));
-	JN_TRY(axes_mask(def->axes, what, mask));
-	for (int axis = 0; axis < 3; ++axis)
-		if (mask[axis]) use_axis(axes, body, chosen, axis, 1);
-	return JN_OK;
-}
-
-static JnStatus drive_nodes(const JnDriveDef* def, const char* what, const JnBody* body, bool* chosen, Axes* axes) {
-	char where[128];
-	snprintf(where, sizeof where, "%s.where", what);
-	JN_TRY(jn_select_nodes(&def->where, &body->mesh, where, chosen));
-	int driven = 0;
-	for (int axis = 0; axis < 3; ++axis) {
-		const JnMotionType* type = (const JnMotionType*)def->motion[axis].row;
-		if (type == NULL) {
-			if (def->others == 0) use_axis(axes, body, chosen, axis, 1);
-			continue;
-		}
-		snprintf(where, sizeof where, "%s.%c", what, 'x' + axis);
-		if (type->check != NULL) JN_TRY(type->check(def->motion[axis].options, where));
-		axes->motions[axes->motion_count] = &def->motion[axis];
-		use_axis(axes, body, chosen, axis, 2 + axes->motion_count++);
-		++driven;
-	}
-	return driven > 0 ? JN_OK : jn_error(JN_BAD_INPUT, "%s: no axis has a motion; give x, y or z, or use fix", what);
-}
-
-static JnStatus constrain_body(const JnBodyDef* def, int index, const JnBody* body, JnArena* scratch, Axes* axes) {
-	bool* chosen;
-	char what[96];
-	JN_NEW(scratch, chosen, body->mesh.node_count);
-	for (int i = 0; i < def->fix.count; ++i) {
-		snprintf(what, sizeof what, "bodies[%d].fix[%d]", index, i);
-		JN_TRY(fix_nodes((const JnFixDef*)def->fix.data + i, what, body, chosen, axes));
-	}
-	for (int i = 0; i < def->drive.count; ++i) {
-		snprintf(what, sizeof what, "bodies[%d].drive[%d]", index, i);
-		JN_TRY(drive_nodes((const JnDriveDef*)def->drive.data + i, what, body, chosen, axes));
-	}
-	return JN_OK;
-}
-
-static JnStatus list_held(const Axes* axes, JnModel* model) {
-	const int entries = 3 * model->node_count;
-	for (int k = 0; k < entries; ++k) model->held_count += axes->use[k] != 0;
-	if (model->held_count == entries)
-		return jn_error(JN_BAD_INPUT, "bodies: no node is free, all %d are fixed or driven; fix fewer, or fewer axes",
-						model->node_count);
-	JN_NEW(&model->arena, model->held, entries);
-	JN_NEW(&model->arena, model->held_list, model->held_count + 1);
-	JnVariant* motions;
-	JN_NEW(&model->arena, motions, axes->motion_count + 1);
-	for (int i = 0; i < axes->motion_count; ++i) motions[i] = *axes->motions[i];
-	int place = 0;
-	for (int k = 0; k < entries; ++k) {
-		if (axes->use[k] == 0) continue;
-		model->held[k] = true;
-		model->held_list[place++] =
-			(JnHeld){.entry = k, .motion = axes->use[k] >= 2 ? &motions[axes->use[k] - 2] : NULL};
-	}
-	return JN_OK;
-}
-
-static JnStatus constrain(const JnItems* defs, JnModel* model, JnArena* scratch) {
-	Axes axes = {0};
-	int drives = 0;
-	for (int b = 0; b < defs->count; ++b) drives += ((const JnBodyDef*)defs->data)[b].drive.count;
-	JN_NEW(scratch, axes.use, 3 * (size_t)model->node_count);
-	JN_NEW(scratch, axes.motions, 3 * drives + 1);
-	for (int b = 0; b < defs->count; ++b)
-		JN_TRY(constrain_body((const JnBodyDef*)defs->data + b, b, &model->bodies[b], scratch, &axes));
-	return list_held(&axes, model);
-}
-
-static JnStatus build_elements(const JnItems* defs, JnModel* model) {
+static JnStatus build_elements(const JnItems* defs, JnModel* model, JnArena* scratch) {
+	JnGroups* made;
+	JN_NEW(scratch, made, model->body_count);
 	for (int b = 0; b < defs->count; ++b) {
 		const JnBodyDef* def = (const JnBodyDef*)defs->data + b;
+		const JnLaw* law = (const JnLaw*)def->material.row;
 		JnBody* body = &model->bodies[b];
-		const JnKernel* kernel = jn_kernel_find(body->mesh.shape, (const JnLaw*)def->material.row, 0);
-		if (kernel == NULL)
-			return jn_error(JN_BAD_INPUT, "bodies[%d].material.law: '%s' does not run on %s elements", b,
-							def->material.row->name, jn_shape_info[body->mesh.shape].name);
-		JN_TRY(
-			jn_group_create(kernel, &body->mesh, body->first_node, def->material.options, &model->arena, &body->group));
+		char what[96];
+		snprintf(what, sizeof what, "bodies[%d]", b);
+		JN_TRY(law->build(law, def->material.options, &body->mesh, body->first_node, what, &model->arena, &made[b]));
+		body->law = law;
+		body->density = made[b].density;
+		body->first_group = model->group_count;
+		body->group_count = made[b].count;
+		model->group_count += made[b].count;
+	}
+	JN_NEW(&model->arena, model->groups, model->group_count + 1);
+	for (int b = 0; b < model->body_count; ++b)
+		for (int g = 0; g < made[b].count; ++g) model->groups[model->bodies[b].first_group + g] = made[b].list[g];
+	return JN_OK;
+}
+
+// The cells of a group's elements, which stand in batches of lanes.
+static JnStatus list_elements(const JnGroup* group, JnArena* arena, JnCellList* list) {
+	const int nodes = group->kernel->nodes, width = group->kernel->width;
+	int* cells;
+	JN_NEW(arena, cells, (size_t)group->count * (size_t)nodes);
+	for (int e = 0; e < group->count; ++e)
+		for (int i = 0; i < nodes; ++i) {
+			const size_t place = (size_t)(e / width) * (size_t)nodes + (size_t)i;
+			cells[(size_t)e * (size_t)nodes + (size_t)i] = group->nodes[place * (size_t)width + (size_t)(e % width)];
+		}
+	*list = (JnCellList){.count = group->count, .nodes = nodes, .cells = cells};
+	return JN_OK;
+}
+
+// Products stand for matrices where the solver is content with them and no part of the model needs more. A kernel that
+// freezes is left out: D may be of an earlier step, and its product would be that of the present one.
+static bool can_be_matrix_free(const JnModelDef* def, const JnModel* model) {
+	const JnSolverType* solver = (const JnSolverType*)def->solver.row;
+	if (solver->takes_products == NULL || !solver->takes_products(def->solver.options)) return false;
+	for (int b = 0; b < model->body_count; ++b)
+		if (model->bodies[b].mass_form == 0 && model->bodies[b].mesh.shape != JN_POINT1) return false;
+	for (int g = 0; g < model->group_count; ++g)
+		if (model->groups[g].kernel->product == NULL || model->groups[g].kernel->freeze != NULL) return false;
+	return def->wind == NULL || def->wind->tangent == 0;
+}
+
+static JnStatus diagonal_pattern(JnModel* model, JnArena* scratch) {
+	JnCellList list = {.count = model->node_count, .nodes = 1};
+	int* cells;
+	JN_NEW(scratch, cells, model->node_count);
+	for (int i = 0; i < model->node_count; ++i) cells[i] = i;
+	list.cells = cells;
+	return jn_pattern_create(model->node_count, 1, &list, &model->arena, &model->pattern);
+}
+
+// Bonds of points reach far: their factor fills up as that of no mesh does.
+static JnStatus check_size(const JnModelDef* def, const JnModel* model) {
+	static const int most = 300000;
+	for (int b = 0; b < model->body_count; ++b) {
+		const JnBody* body = &model->bodies[b];
+		long elements = 0;
+		for (int g = 0; g < body->group_count; ++g) elements += model->groups[body->first_group + g].count;
+		if (body->mesh.shape == JN_POINT1 && elements > most)
+			return jn_error(
+				JN_BAD_INPUT,
+				"bodies[%d]: %ld bonds between %d points are too many for assembled matrices (solver.method: "
+				"%s), whose limit is %d; use solver.method: cg",
+				b, elements, body->mesh.node_count, def->solver.row->name, most);
 	}
 	return JN_OK;
 }
 
-static JnStatus build_pattern(JnModel* model, JnArena* scratch) {
+// Neighbours are what shares a cell, for the mass, or an element.
+static JnStatus build_pattern(const JnModelDef* def, JnModel* model, JnArena* scratch) {
+	model->is_matrix_free = can_be_matrix_free(def, model);
+	if (model->is_matrix_free) return diagonal_pattern(model, scratch);
+	JN_TRY(check_size(def, model));
 	JnCellList* lists;
-	JN_NEW(scratch, lists, model->body_count);
+	JN_NEW(scratch, lists, model->body_count + model->group_count);
 	for (int b = 0; b < model->body_count; ++b) {
 		const JnBody* body = &model->bodies[b];
 		lists[b] = (JnCellList){
 			.count = body->mesh.cell_count, .nodes = jn_shape_info[body->mesh.shape].nodes, .cells = body->cells};
 	}
-	return jn_pattern_create(model->node_count, model->body_count, lists, &model->arena, &model->pattern);
+	int count = model->body_count;
+	for (int b = 0; b < model->body_count; ++b) {
+		const JnBody* body = &model->bodies[b];
+		for (int g = 0; g < body->group_count && body->mesh.shape >= JN_SOLID_SHAPE_COUNT; ++g)
+			JN_TRY(list_elements(&model->groups[body->first_group + g], scratch, &lists[count++]));
+	}
+	return jn_pattern_create(model->node_count, count, lists, &model->arena, &model->pattern);
 }
 
 static JnStatus build(const JnModelDef* def, JnModel* model, JnArena* scratch) {
@@ -193,11 +166,13 @@ static JnStatus build(const JnModelDef* def, JnModel* model, JnArena* scratch) {
 	memcpy(model->gravity, def->gravity, sizeof model->gravity);
 	JN_TRY(build_meshes(&def->bodies, model));
 	JN_TRY(jn_obstacles_create(&def->obstacles, model));
-	JN_TRY(constrain(&def->bodies, model, scratch));
-	JN_TRY(build_elements(&def->bodies, model));
-	JN_TRY(build_pattern(model, scratch));
+	JN_TRY(jn_model_constrain(&def->bodies, model, scratch));
+	JN_TRY(build_elements(&def->bodies, model, scratch));
+	JN_TRY(build_pattern(def, model, scratch));
 	JN_TRY(jn_mass_build(model));
+	JN_TRY(jn_loads_build(&def->bodies, model, scratch));
 	if (def->wind != NULL) JN_TRY(jn_wind_create(def->wind, model, &model->wind));
+	JN_TRY(jn_repulsion_create(def->repulsion, def, model, &model->repulsion));
 	return jn_model_system_create(model, &def->solver);
 }
 
@@ -219,8 +194,19 @@ JnStatus jn_model_create(const JnModelDef* def, int threads, JnModel** out) {
 void jn_model_destroy(JnModel* model) {
 	if (model == NULL) return;
 	jn_model_system_destroy(model);
+	jn_repulsion_destroy(model->repulsion);
 	jn_arena_free(&model->arena);
 	free(model);
+}
+
+double jn_group_beta(const JnModel* model, const JnBody* body, int group) {
+	return body->damping.beta + model->groups[body->first_group + group].damping;
+}
+
+bool jn_body_has_beta(const JnModel* model, const JnBody* body) {
+	for (int g = 0; g < body->group_count; ++g)
+		if (jn_group_beta(model, body, g) > 0) return true;
+	return false;
 }
 
 int jn_model_node_count(const JnModel* model) {
@@ -241,55 +227,4 @@ int jn_model_nearest(const JnModel* model, const double point[3]) {
 
 JnSystem* jn_model_system(JnModel* model) {
 	return model->system;
-}
-
-// Row sums of the mass matrix times positions: the integral of density * x, as shape functions reproduce x.
-static void mass_centre(const JnModel* model, const JnBody* body, double centre[3]) {
-	double moment[3] = {0, 0, 0}, mass = 0;
-	for (int node = body->first_node; node < body->first_node + body->mesh.node_count; ++node) {
-		mass += model->nodal_mass[node];
-		for (int axis = 0; axis < 3; ++axis)
-			moment[axis] += model->nodal_mass[node] * model->rest[3 * (size_t)node + axis];
-	}
-	for (int axis = 0; axis < 3; ++axis) centre[axis] = moment[axis] / mass;
-}
-
-// x = X,  v = velocity + spin x (X - centre)
-static void start_body(const JnModel* model, const JnBody* body, JnState* state) {
-	double centre[3];
-	mass_centre(model, body, centre);
-	for (int node = body->first_node; node < body->first_node + body->mesh.node_count; ++node) {
-		const double* rest = model->rest + 3 * (size_t)node;
-		for (int axis = 0; axis < 3; ++axis) {
-			const int next = (axis + 1) % 3, last = (axis + 2) % 3;
-			const double arm[2] = {rest[next] - centre[next], rest[last] - centre[last]};
-			const double turn = body->spin[next] * arm[1] - body->spin[last] * arm[0];
-			state->x[3 * (size_t)node + axis] = rest[axis];
-			state->v[3 * (size_t)node + axis] = body->velocity[axis] + turn;
-		}
-	}
-}
-
-// Every node draws, also a held one, so that what is held changes no other node.
-static void scatter_body(const JnModel* model, const JnBody* body, JnState* state) {
-	JnRandom random = {(uint64_t)body->scatter.seed};
-	if (body->scatter.amplitude == 0) return;
-	for (int node = body->first_node; node < body->first_node + body->mesh.node_count; ++node) {
-		double point[3];
-		jn_random_in_ball(&random, point);
-		for (int axis = 0; axis < 3; ++axis) {
-			const size_t k = 3 * (size_t)node + (size_t)axis;
-			if (!model->held[k]) state->x[k] += body->scatter.amplitude * point[axis];
-		}
-	}
-}
-
-void jn_model_start(JnModel* model, double t, JnState* state) {
-	for (int b = 0; b < model->body_count; ++b) {
-		start_body(model, &model->bodies[b], state);
-		scatter_body(model, &model->bodies[b], state);
-	}
-	state->t = t;
-	model->system->ops->prescribe(model->system, state, NULL);
-	jn_state_touch(model->system->space, state);
 }

@@ -3,6 +3,7 @@
 #include "force/wind.h"
 #include "jounce/model.h"
 #include "mesh/shape/shape.h"
+#include "model/load.h"
 #include "model/motion.h"
 
 static const char* const masses[] = {"consistent", "lumped", NULL};
@@ -255,5 +256,11 @@ const JnKey jn_body_keys[] = {
 	 .keys = drive_keys,
 	 .size = sizeof(JnDriveDef),
 	 .meaning = "nodes moved along prescribed paths"},
+	{.name = "loads",
+	 .kind = JN_LIST,
+	 .field = offsetof(JnBodyDef, loads),
+	 .keys = jn_load_keys,
+	 .size = sizeof(JnLoadDef),
+	 .meaning = "constant forces on nodes"},
 	{0},
 };

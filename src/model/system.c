@@ -7,6 +7,9 @@
 
 #include "base/log.h"
 #include "base/space.h"
+#include "model/load.h"
+#include "model/repulsion.h"
+#include "model/stretch.h"
 #include "model/wind.h"
 
 static JnModelSystem* of(JnSystem* sys) {
@@ -16,17 +19,20 @@ static JnModelSystem* of(JnSystem* sys) {
 static void make_damping(JnModelSystem* sys, const double* x, uint64_t stamp) {
 	if (sys->damping == NULL) return;
 	jn_assembly_tangent(sys->assembly, x, JN_DEFINITE, sys->beta, sys->damping);
+	if (sys->damping_x != NULL) memcpy(sys->damping_x, x, sys->base.space->length * sizeof *x);
 	sys->damping_stamp = stamp;
 	++sys->base.report->tangents;
 	jn_model_matrix_expire(sys);
 }
 
-static void update_internal(JnModelSystem* sys, const JnState* s) {
-	if (sys->internal_stamp == s->stamp) return;
+static JnStatus update_internal(JnModelSystem* sys, const JnState* s) {
+	if (sys->internal_stamp == s->stamp) return JN_OK;
 	memset(sys->internal, 0, sys->base.space->length * sizeof *sys->internal);
 	jn_assembly_force(sys->assembly, s->x, sys->internal);
+	if (sys->model->repulsion != NULL) JN_TRY(jn_repulsion_force(sys->model->repulsion, s->x, sys->internal));
 	sys->internal_stamp = s->stamp;
 	++sys->base.report->forces;
+	return JN_OK;
 }
 
 // Typical forces: the weight, or what acts inside, or the wind, or (at rest without weight) those of a strain of 1e-6.
@@ -64,7 +70,7 @@ static JnStatus begin(JnSystem* base, const JnState* start) {
 		if (damping_follows) sys->damping_stamp = 0;
 	}
 	if (damping_follows && sys->damping_stamp != start->stamp) make_damping(sys, start->x, start->stamp);
-	if (base->force_scale == 0) update_internal(sys, start);
+	if (base->force_scale == 0) JN_TRY(update_internal(sys, start));
 	if (sys->internal_stamp == start->stamp)
 		base->force_scale = typical_force(sys); // else as before: no force for this alone
 	return JN_OK;
@@ -90,13 +96,13 @@ static void hold(JnSystem* base, JnVec r) {
 static JnStatus force(JnSystem* base, const JnState* s, JnVec f) {
 	JnModelSystem* sys = of(base);
 	const JnModel* model = sys->model;
-	update_internal(sys, s);
+	JN_TRY(update_internal(sys, s));
 	const JnTerm terms[] = {{1, sys->internal}, {1, sys->external}, {1, sys->load}};
 	base->space->ops->combine(base->space, f, sys->load != NULL ? 3 : 2, terms);
 	if (model->wind != NULL) jn_wind_force(model->wind, s, f);
 	if (sys->alpha_mass != NULL) jn_scalars_apply(&model->pattern, sys->alpha_mass, -1, s->v, f, model->threads);
 	if (sys->damping_is_current && sys->damping_stamp != s->stamp) make_damping(sys, s->x, s->stamp);
-	if (sys->damping != NULL) jn_blocks_apply(&model->pattern, sys->damping, -1, s->v, f, model->threads);
+	jn_model_apply_damping(sys, -1, s->v, f);
 	return JN_OK;
 }
 
@@ -110,7 +116,7 @@ static double gravity_potential(const JnModel* model, const double* x) {
 		}
 		sum -= model->nodal_mass[node] * work;
 	}
-	return sum;
+	return sum + jn_loads_potential(model, x);
 }
 
 // Potential of the load: -load . (x - X).
@@ -121,13 +127,29 @@ static double load_potential(const JnModelSystem* sys, const double* x) {
 	return sum;
 }
 
+// Of strain and of repulsion.
+static double elastic_energy(const JnModelSystem* sys, const double* x) {
+	const double strain = jn_assembly_energy(sys->assembly, x);
+	return sys->model->repulsion != NULL ? strain + jn_repulsion_energy(sys->model->repulsion, x) : strain;
+}
+
 static double energy(JnSystem* base, const JnState* s) {
 	JnModelSystem* sys = of(base);
-	return jn_assembly_energy(sys->assembly, s->x) + gravity_potential(sys->model, s->x) + load_potential(sys, s->x);
+	return elastic_energy(sys, s->x) + gravity_potential(sys->model, s->x) + load_potential(sys, s->x);
 }
 
 void jn_model_system_set_load(JnModel* model, const double* load) {
 	of(model->system)->load = load;
+}
+
+// Pairs that meet have no place in a pattern that is made once.
+static JnStatus linearize_repulsion(JnModelSystem* sys, const double* x) {
+	if (!sys->model->is_matrix_free)
+		return jn_error(JN_BAD_INPUT, "repulsion: implicit methods need it as products; set solver.method: cg, and "
+									  "solver.matrix: auto");
+	JN_TRY(jn_repulsion_linearize(sys->model->repulsion, x));
+	jn_repulsion_add_diagonal(sys->model->repulsion, JN_EXACT, sys->stiffness);
+	return JN_OK;
 }
 
 static JnStatus linearize(JnSystem* base, const JnState* s) {
@@ -137,6 +159,7 @@ static JnStatus linearize(JnSystem* base, const JnState* s) {
 	const bool is_constant = base->is_linear_in_step && sys->stiffness_stamp != 0;
 	if (sys->stiffness_stamp == s->stamp || is_constant) return JN_OK;
 	jn_assembly_tangent(sys->assembly, s->x, JN_EXACT, NULL, sys->stiffness);
+	if (sys->model->repulsion != NULL) JN_TRY(linearize_repulsion(sys, s->x));
 	memcpy(sys->linear_x, s->x, base->space->length * sizeof *sys->linear_x);
 	sys->stiffness_stamp = s->stamp;
 	++base->report->tangents;
@@ -148,9 +171,8 @@ static JnStatus matrix(JnSystem* base, JnShift shift, JnMatrix** out) {
 	return jn_model_matrix(of(base), shift, out);
 }
 
-static double max_step(JnSystem* base, const JnState* from, const JnState* to) {
-	(void)base, (void)from, (void)to;
-	return 1;
+static double stretch(JnSystem* base, const JnState* from, const JnState* to) {
+	return jn_model_stretch(of(base)->model, from->x, to->x);
 }
 
 static const JnSystemOps system_ops = {
@@ -161,7 +183,7 @@ static const JnSystemOps system_ops = {
 	.energy = energy,
 	.linearize = linearize,
 	.matrix = matrix,
-	.max_step = max_step,
+	.stretch = stretch,
 };
 
 // What rounding of positions leaves in a force: stiffness times the spacing of doubles at the model's coordinates.
@@ -189,18 +211,22 @@ static JnStatus allocate(JnModelSystem* sys) {
 	JN_NEW(arena, sys->stiffness, entries);
 	JN_NEW(arena, sys->scratch, entries);
 	if (model->has_beta) JN_NEW(arena, sys->damping_store, entries);
-	JN_NEW(arena, sys->beta, model->body_count);
-	for (int k = 0; k < 3 * model->node_count; ++k) sys->external[k] = model->nodal_mass[k / 3] * model->gravity[k % 3];
-	sys->base.is_linear_in_step = model->wind == NULL;
+	if (model->has_beta && model->is_matrix_free) JN_NEW(arena, sys->damping_x, n);
+	JN_NEW(arena, sys->beta, model->group_count + 1);
+	for (int k = 0; k < 3 * model->node_count; ++k) {
+		sys->external[k] = model->nodal_mass[k / 3] * model->gravity[k % 3];
+		if (model->loads != NULL) sys->external[k] += model->loads[k];
+	}
+	sys->base.is_linear_in_step = model->wind == NULL && model->repulsion == NULL;
 	sys->base.depends_on_time = model->wind != NULL && jn_gusts_blow(&model->wind->gusts);
 	sys->base.has_potential = model->wind == NULL;
 	sys->base.mass_is_diagonal = model->mass_is_diagonal;
 	for (int i = 0; i < model->held_count; ++i) sys->base.depends_on_time |= model->held_list[i].motion != NULL;
 	for (int b = 0; b < model->body_count; ++b) {
 		const JnBody* body = &model->bodies[b];
-		sys->beta[b] = body->damping.beta;
-		sys->base.is_linear_in_step &= body->group.kernel->law->is_linear_in_step;
-		sys->damping_is_current |= body->damping.beta > 0 && body->damping.stiffness == 2;
+		sys->base.is_linear_in_step &= body->law->is_linear_in_step;
+		sys->damping_is_current |= jn_body_has_beta(model, body) && body->damping.stiffness == 2;
+		for (int g = 0; g < body->group_count; ++g) sys->beta[body->first_group + g] = jn_group_beta(model, body, g);
 	}
 	sys->base.has_potential &= !sys->damping_is_current;
 	return JN_OK;
@@ -211,7 +237,7 @@ static JnStatus create_unsymmetric(JnModelSystem* sys) {
 	JnModel* model = sys->model;
 	if (model->wind == NULL || model->wind->tangent == NULL) return JN_OK;
 	JN_NEW(&model->arena, sys->full, 9 * (size_t)model->pattern.full_start[model->node_count]);
-	return jn_solver_unsymmetric.create(NULL, &model->pattern, model->held, &sys->unsymmetric);
+	return jn_solver_unsymmetric.create(NULL, &model->pattern, model->held, model->threads, &sys->unsymmetric);
 }
 
 // One damping matrix serves all bodies, so that they must agree on where K is taken.
@@ -219,7 +245,7 @@ static JnStatus check_damping(JnModelSystem* sys) {
 	int chosen = -1;
 	for (int b = 0; b < sys->model->body_count; ++b) {
 		const JnDampingDef* damping = &sys->model->bodies[b].damping;
-		if (damping->beta == 0) continue;
+		if (!jn_body_has_beta(sys->model, &sys->model->bodies[b])) continue;
 		if (chosen >= 0 && chosen != damping->stiffness)
 			return jn_error(JN_BAD_INPUT,
 							"bodies[%d].damping.stiffness: differs from that of an earlier body; use one for all", b);
@@ -234,7 +260,7 @@ static JnStatus check_damping_start(JnModelSystem* sys) {
 	bool is_chosen = false;
 	for (int b = 0; b < sys->model->body_count; ++b) {
 		const JnDampingDef* damping = &sys->model->bodies[b].damping;
-		if (damping->alpha == 0 && damping->beta == 0) continue;
+		if (damping->alpha == 0 && !jn_body_has_beta(sys->model, &sys->model->bodies[b])) continue;
 		if (is_chosen && sys->damping_start != damping->start)
 			return jn_error(JN_BAD_INPUT,
 							"bodies[%d].damping.start: differs from that of an earlier body; use one for all", b);
@@ -253,12 +279,15 @@ JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver) {
 	model->system = &sys->base;
 	sys->base.space = jn_host_space_create(3 * (size_t)model->node_count, model->threads);
 	if (sys->base.space == NULL) return JN_OUT_OF_MEMORY;
+	sys->base.space->node_entries = 3;
 	JN_TRY(jn_assembly_create(model, &sys->assembly));
 	JN_TRY(allocate(sys));
 	JN_TRY(check_damping(sys));
 	JN_TRY(check_damping_start(sys));
 	const JnSolverType* type = (const JnSolverType*)solver->row;
-	JN_TRY(type->create(solver->options, &model->pattern, model->held, &sys->solver));
+	JN_TRY(type->create(solver->options, &model->pattern, model->held, model->threads, &sys->solver));
+	if (model->is_matrix_free)
+		type->attach(sys->solver, (JnOperator){jn_model_matrix_product, sys, &sys->base.force_floor});
 	JN_TRY(create_unsymmetric(sys));
 	jn_assembly_freeze(sys->assembly, model->rest);
 	jn_assembly_tangent(sys->assembly, model->rest, JN_EXACT, NULL, sys->stiffness);
@@ -289,8 +318,7 @@ JnEnergies jn_model_energies(JnModel* model, const JnState* state) {
 	JnModelSystem* sys = of(model->system);
 	JnSpace* space = sys->base.space;
 	JnMatrix* mass = NULL;
-	JnEnergies out = {.elastic = jn_assembly_energy(sys->assembly, state->x),
-					  .gravity = gravity_potential(model, state->x)};
+	JnEnergies out = {.elastic = elastic_energy(sys, state->x), .gravity = gravity_potential(model, state->x)};
 	jn_model_matrix(sys, (JnShift){.mass = 1}, &mass);
 	double* p = sys->momenta;
 	mass->ops->apply(mass, state->v, p);

@@ -205,9 +205,11 @@ static JnStatus matrix(JnSystem* base, JnShift shift, JnMatrix** out) {
 	return JN_OK;
 }
 
-static double max_step(JnSystem* base, const JnState* from, const JnState* to) {
-	(void)base, (void)from, (void)to;
-	return 1;
+// Nothing is known of neighbours: each entry is a length of its own.
+static double stretch(JnSystem* base, const JnState* from, const JnState* to) {
+	double most = 0;
+	for (int i = 0; i < of(base)->n; ++i) most = fmax(most, fabs(to->x[i] - from->x[i]));
+	return most;
 }
 
 static const JnSystemOps system_ops = {.begin = begin,
@@ -217,7 +219,7 @@ static const JnSystemOps system_ops = {.begin = begin,
 									   .energy = energy,
 									   .linearize = linearize,
 									   .matrix = matrix,
-									   .max_step = max_step};
+									   .stretch = stretch};
 
 static JnStatus take_mass(UserSystem* sys) {
 	const int n = sys->n;
