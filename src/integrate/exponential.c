@@ -369,6 +369,7 @@ const JnIntegratorType jn_exponential_rosenbrock = {
 	.order = 2,
 	.force_weight = 0.5,
 	.overshoots = true,
+	.keeps_tangent = true,
 	.vectors = VECTORS,
 	.step = exponential_step,
 };

@@ -72,8 +72,10 @@ static JnStatus newmark_step(JnIntegrator* self, JnStep* step) {
 	return solve_end(self, step, *w, (JnStage){0});
 }
 
-// With f linearised about (t1, x0, v0):  (M + gamma dt D + beta dt^2 K) a1 = f - K (x~ - x0) - D (v~ - v0),
-// where x~ and v~ are the predicted ones, those of held nodes being exact.
+// With f linearised about (t1, x0, v0), and a1 = a0 + change:
+//   (M + gamma dt D + beta dt^2 K) change = f - K (x~ - x0) - D (v~ - v0) - M a0,
+// where x~ and v~ are those that a1 = a0 would give, those of held nodes being exact. In free flight nothing is left on the
+// right, and a solver that iterates has nothing to do.
 static JnStatus linearized_step(JnIntegrator* self, JnStep* step) {
 	const Weights* w = self->options;
 	JnSystem* sys = step->sys;
@@ -93,10 +95,10 @@ static JnStatus linearized_step(JnIntegrator* self, JnStep* step) {
 	JN_TRY(sys->ops->matrix(sys, (JnShift){.mass = 1}, &mass));
 	JN_TRY(sys->ops->matrix(sys, (JnShift){.stiffness = 1}, &stiffness));
 	predict(self, step, *w);
-	space->ops->combine(space, end->x, 1, (JnTerm[]){{1, self->vectors[X]}});
-	space->ops->combine(space, end->v, 1, (JnTerm[]){{1, self->vectors[V]}});
+	space->ops->combine(space, a1, 1, (JnTerm[]){{1, self->vectors[A0]}});
+	space->ops->combine(space, end->x, 2, (JnTerm[]){{1, self->vectors[X]}, {dt * dt * w->beta, a1}});
+	space->ops->combine(space, end->v, 2, (JnTerm[]){{1, self->vectors[V]}, {dt * w->gamma, a1}});
 	end->t = step->start->t + dt;
-	space->ops->combine(space, a1, 0, NULL);
 	sys->ops->prescribe(sys, end, a1);
 	space->ops->combine(space, end->x, 2, (JnTerm[]){{1, end->x}, {-1, step->start->x}});
 	stiffness->ops->apply(stiffness, end->x, work);
@@ -149,9 +151,14 @@ typedef struct HhtDef {
 	double alpha; // -1/3 .. 0
 } HhtDef;
 
+static Weights hht_weights(const JnIntegrator* self) {
+	const double alpha = ((const HhtDef*)self->options)->alpha;
+	return (Weights){.beta = 0.25 * (1 - alpha) * (1 - alpha), .gamma = 0.5 * (1 - 2 * alpha)};
+}
+
 static JnStatus hht_step(JnIntegrator* self, JnStep* step) {
 	const double alpha = ((const HhtDef*)self->options)->alpha;
-	const Weights w = {.beta = 0.25 * (1 - alpha) * (1 - alpha), .gamma = 0.5 * (1 - 2 * alpha)};
+	const Weights w = hht_weights(self);
 	start_step(self, step);
 	JN_TRY(recall_acceleration(self, step));
 	JnVec load = self->vectors[LOAD];
@@ -166,11 +173,21 @@ typedef struct AlphaDef {
 	double rho_infinity; // 0 .. 1
 } AlphaDef;
 
+static double mass_share(double rho) {
+	return (2 * rho - 1) / (rho + 1);
+}
+
+static Weights alpha_weights(const JnIntegrator* self) {
+	const double rho = ((const AlphaDef*)self->options)->rho_infinity;
+	const double am = mass_share(rho), af = rho / (rho + 1);
+	return (Weights){.beta = 0.25 * (1 - am + af) * (1 - am + af), .gamma = 0.5 - am + af};
+}
+
 // The unknown of the stage is the weighted acceleration  a = (1 - am) a1 + am a0; the end state follows from a1.
 static JnStatus generalized_alpha_step(JnIntegrator* self, JnStep* step) {
 	const double rho = ((const AlphaDef*)self->options)->rho_infinity;
-	const double am = (2 * rho - 1) / (rho + 1), af = rho / (rho + 1);
-	const Weights w = {.beta = 0.25 * (1 - am + af) * (1 - am + af), .gamma = 0.5 - am + af};
+	const double am = mass_share(rho), af = rho / (rho + 1);
+	const Weights w = alpha_weights(self);
 	JnSpace* space = self->space;
 	const double dt = step->dt, end_share = 1 - af, a1_share = 1 / (1 - am);
 	JnVec x = self->vectors[LOAD], a = self->vectors[A1], a0 = self->vectors[A0];
@@ -188,6 +205,26 @@ static JnStatus generalized_alpha_step(JnIntegrator* self, JnStep* step) {
 	correct(self, step, w);
 	jn_state_touch(space, step->end);
 	return jn_state_check(space, step->end);
+}
+
+// ---- what the estimate of Zienkiewicz and Xie needs
+
+static double beta_with(const JnIntegrator* self, Weights w, const double** a0, const double** a1) {
+	*a0 = self->vectors[A0];
+	*a1 = self->vectors[A1];
+	return w.beta;
+}
+
+static double newmark_beta(const JnIntegrator* self, const double** a0, const double** a1) {
+	return beta_with(self, *(const Weights*)self->options, a0, a1);
+}
+
+static double hht_beta(const JnIntegrator* self, const double** a0, const double** a1) {
+	return beta_with(self, hht_weights(self), a0, a1);
+}
+
+static double alpha_beta(const JnIntegrator* self, const double** a0, const double** a1) {
+	return beta_with(self, alpha_weights(self), a0, a1);
 }
 
 static const JnKey newmark_keys[] = {
@@ -244,6 +281,7 @@ const JnIntegratorType jn_newmark = {
 	.force_weight = 0.25,
 	.vectors = VECTORS,
 	.step = newmark_step,
+	.newmark_beta = newmark_beta,
 };
 
 const JnIntegratorType jn_linearized_newmark = {
@@ -255,7 +293,9 @@ const JnIntegratorType jn_linearized_newmark = {
 	.order = 2,
 	.force_weight = 0.25,
 	.vectors = VECTORS,
+	.keeps_tangent = true,
 	.step = linearized_step,
+	.newmark_beta = newmark_beta,
 };
 
 const JnIntegratorType jn_hht_alpha = {
@@ -270,6 +310,7 @@ const JnIntegratorType jn_hht_alpha = {
 	.memory_size = sizeof(Memory),
 	.step = hht_step,
 	.commit = keep_acceleration,
+	.newmark_beta = hht_beta,
 };
 
 const JnIntegratorType jn_generalized_alpha = {
@@ -284,4 +325,5 @@ const JnIntegratorType jn_generalized_alpha = {
 	.memory_size = sizeof(Memory),
 	.step = generalized_alpha_step,
 	.commit = keep_acceleration,
+	.newmark_beta = alpha_beta,
 };

@@ -188,6 +188,7 @@ static void rosenbrock_properties(const void* table, JnTableauProperties* out) {
 		.order = p,                                                                                                    \
 		.force_weight = (diagonal) * (diagonal),                                                                       \
 		.overshoots = is_overshooting,                                                                                 \
+		.keeps_tangent = true,                                                                                         \
 		.vectors = INCREMENTS + 2 * (stage_count),                                                                     \
 		.table = &jn_rosenbrock_##method,                                                                              \
 		.properties = rosenbrock_properties,                                                                           \

@@ -88,6 +88,8 @@ JnTableauProperties jn_rosenbrock_properties(const JnRosenbrock* method) {
 	JnTableauProperties out = jn_tableau_properties(&beta);
 	find_order(&form, &beta, &out);
 	out.stage_order = 1;
+	if (method->has_embedded)
+		out.error_order = 1 + (method->embedded_order < out.order ? method->embedded_order : out.order);
 	if (fabs(method->alpha[method->stages - 1] - 1) > ORDER_TOLERANCE) out.stiffly_accurate = false;
 	return out;
 }

@@ -226,6 +226,8 @@ JnTableauProperties jn_tableau_properties(const JnTableau* tableau) {
 	}
 	find_order(tableau, &out);
 	while (out.stage_order < out.order && stages_have_order(tableau, out.stage_order + 1)) out.stage_order++;
+	const int lower = tableau->embedded_order < out.order ? tableau->embedded_order : out.order;
+	if (tableau->has_embedded) out.error_order = tableau->has_start_estimate ? 3 : lower + 1;
 	const Stability r = find_stability(tableau);
 	find_damping(tableau, &r, &out);
 	find_dispersion(&r, &out);

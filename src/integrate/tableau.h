@@ -30,6 +30,7 @@ typedef struct JnTableauProperties {
 	double dispersion;
 	int dissipation_order; ///< r: 1 - |R(i nu)| = constant nu^(r+1) + ...; 0: none
 	double dissipation;
+	int error_order;       ///< the embedded estimate falls like dt^error_order; 0: there is none
 	double order_residual; ///< largest violation of a condition up to `order`, relative to its terms if above 1
 } JnTableauProperties;
 
