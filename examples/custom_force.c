@@ -66,12 +66,12 @@ static JnStatus matrix(JnSystem* base, JnShift shift, JnMatrix** out) {
 	return model_of(base)->ops->matrix(model_of(base), shift, out);
 }
 
-static double max_step(JnSystem* base, const JnState* from, const JnState* to) {
-	return model_of(base)->ops->max_step(model_of(base), from, to);
+static double stretch(JnSystem* base, const JnState* from, const JnState* to) {
+	return model_of(base)->ops->stretch(model_of(base), from, to);
 }
 
 static JnStatus simulate(JnModel* model) {
-	static const JnSystemOps ops = {begin, prescribe, hold, force, energy, linearize, matrix, max_step};
+	static const JnSystemOps ops = {begin, prescribe, hold, force, energy, linearize, matrix, stretch};
 	const double middle[3] = {0.125, 0.125, 1};
 	Magnet magnet = {.base = *jn_model_system(model),
 					 .model = jn_model_system(model),

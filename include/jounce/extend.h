@@ -28,7 +28,7 @@ typedef enum JnKind {
 	JN_CHOICE,   ///< int: index into the NULL-terminated .names
 	JN_OBJECT,   ///< a nested struct with its own .keys, filled with defaults when absent
 	JN_OPTIONAL, ///< pointer to a nested struct with .keys and .size; NULL when absent
-	JN_LIST,     ///< JnItems: a list of nested structs with .keys and .size
+	JN_LIST,     ///< JnItems: a list of nested structs with .keys and .size; with .rows: of JnVariant
 	JN_VARIANT,  ///< JnVariant: the row of .rows that the entry .tag names, with that row's own keys beside it
 } JnKind;
 
@@ -89,8 +89,8 @@ struct JnKey {
 	const char* const* names; ///< CHOICE: the words, NULL at the end
 	const JnKey* keys;        ///< OBJECT, OPTIONAL, LIST: keys of the nested struct
 	size_t size;              ///< OPTIONAL, LIST: bytes of the nested struct
-	const JnRowList* rows;    ///< VARIANT: the catalogue
-	const char* tag;          ///< VARIANT: the entry that names the row, such as "method"
+	const JnRowList* rows;    ///< VARIANT, and LIST of variants: the catalogue
+	const char* tag;          ///< with .rows: the entry that names the row, such as "method"
 	const char* remedy;  ///< what to do about a value outside its bounds, such as "use 0.49 for nearly incompressible"
 	const char* meaning; ///< one sentence or phrase, for describe and the reference page
 };
@@ -106,12 +106,14 @@ typedef struct JnSpaceOps {
 	void (*combine)(JnSpace*, JnVec out, int count,
 					const JnTerm terms[]); ///< out = sum of scale * vec, up to 16 terms; out may be one
 	double (*dot)(JnSpace*, const double* a, const double* b);
-	double (*max)(JnSpace*, const double* a); ///< largest absolute entry; NAN if any is NAN
+	double (*max)(JnSpace*, const double* a);     ///< largest absolute entry; NAN if any is NAN
+	double (*longest)(JnSpace*, const double* a); ///< largest length of a node's entries; NAN if any is NAN
 } JnSpaceOps;
 
 struct JnSpace {
 	const JnSpaceOps* ops;
 	size_t length;       ///< entries of a vector
+	int node_entries;    ///< entries that belong to one node: 3 in models, 1 (or 0, which counts as 1) elsewhere
 	int threads;         ///< threads that a vector operation may use
 	uint64_t last_stamp; ///< stamps handed out so far
 };
@@ -153,7 +155,9 @@ typedef struct JnSystemOps {
 	double (*energy)(JnSystem*, const JnState* s);           ///< potential [J]; NAN when there is none
 	JnStatus (*linearize)(JnSystem*, const JnState* s);      ///< K and D at s; free when the stamp is known
 	JnStatus (*matrix)(JnSystem*, JnShift, JnMatrix** out);  ///< of the last linearize; owned by the system
-	double (*max_step)(JnSystem*, const JnState* from, const JnState* to); ///< largest admissible share of the step
+	/// Largest change of a length between neighbours, relative to their distance at rest (to 1 m where that is zero). NULL: not
+	/// known; the controller stretch_limit is then refused.
+	double (*stretch)(JnSystem*, const JnState* from, const JnState* to);
 } JnSystemOps;
 
 struct JnSystem {
@@ -204,7 +208,9 @@ typedef struct JnStep {
 	const JnState* start;
 	JnState* end;
 	double dt;
-	const struct JnIntegratorType* method; ///< for those who correct the end; integrators do not read it
+	double wanted; ///< size that the controller asked for [s]; dt is shorter where the step must end on a given time
+	const struct JnIntegratorType* method; ///< for those who correct or judge the end; integrators do not read it
+	bool is_edited;                        ///< a pass has corrected the end
 	JnReport report;
 } JnStep;
 
@@ -223,6 +229,7 @@ typedef struct JnIntegratorType {
 	/// Follows an oscillation of which a step is half a period or more nearly exactly, so that a force held over the step moves
 	/// it by twice its static displacement, or not at all: contact forces must not be carried from step to step.
 	bool overshoots;
+	bool keeps_tangent; ///< after a step, the system's K and D are those of its start: linearised methods
 	int vectors;        ///< work vectors that a step needs
 	size_t memory_size; ///< bytes of JnIntegrator.memory; zero at the start and after a reset
 	const void* table;  ///< coefficients, in the family's own form
@@ -230,6 +237,8 @@ typedef struct JnIntegratorType {
 	void (*properties)(const void* table, struct JnTableauProperties* out);
 	JnStatus (*step)(JnIntegrator*, JnStep*);     ///< pure: the same start gives the same end
 	void (*commit)(JnIntegrator*, const JnStep*); ///< keep history; NULL for one-step methods
+	/// Newmark's beta, and where the accelerations at the start and at the end of the last step are; NULL: no such method.
+	double (*newmark_beta)(const JnIntegrator*, const double** a0, const double** a1);
 } JnIntegratorType;
 
 /// Keys of `newton:` in a scene: how the stage problem is solved.
@@ -287,17 +296,35 @@ typedef struct JnVerdict {
 	double dt; ///< size of the next attempt [s]
 } JnVerdict;
 
+/// Why a run cannot go on, for the message that ends it.
+typedef struct JnComplaint {
+	char cause[200];  ///< what was refused in a step that worked: "the force error of 2e-4 m is above ..."; or ""
+	char limit[80];   ///< what forbids a smaller step, such as "step.dt_min = 1e-6 s"; or ""
+	char remedy[200]; ///< what to try: a list that follows "Try"
+} JnComplaint;
+
 typedef struct JnControllerType {
 	JnRow row;
-	size_t memory_size;             ///< bytes of memory that survive from attempt to attempt; zeroed at the start
-	double (*first)(JnController*); ///< size of the first step [s]
-	JnStatus (*judge)(JnController*, const JnStep*, JnStatus outcome, JnVerdict*); ///< sees failed attempts too
+	size_t memory_size; ///< bytes of memory that survive from attempt to attempt; zeroed at the start
+	int vectors;        ///< work vectors
+	JnStatus (*check)(const JnController*); ///< JN_BAD_INPUT when options or method do not fit; NULL: they always do
+	JnStatus (*create)(JnController*);      ///< what else it needs; NULL: nothing
+	void (*destroy)(JnController*);         ///< frees what `create` made, as far as it came; NULL: nothing
+	double (*first)(JnController*);         ///< size of the first step [s]
+	JnStatus (*prepare)(JnController*, const JnStep*); ///< before every attempt; NULL: nothing to do
+	/// Sees failed attempts too. May edit the end. JN_RUN_FAILED: the attempt is refused and no smaller one is allowed.
+	JnStatus (*judge)(JnController*, JnStep*, JnStatus outcome, JnVerdict*);
+	void (*explain)(const JnController*, JnComplaint*); ///< the last JN_RUN_FAILED; NULL: there is nothing to say
 } JnControllerType;
 
 struct JnController {
 	const JnControllerType* type;
 	const void* options; ///< struct of type->row.keys
 	void* memory;
+	JnIntegrator* integrator; ///< whose steps are judged
+	JnSystem* sys;
+	JnVec* vectors; ///< type->vectors
+	char path[48];  ///< where its keys stand, such as "step" or "step.rules[1]"
 };
 
 // ---- passes: what acts on a step beside the integrator, such as contact
@@ -323,6 +350,7 @@ typedef struct JnPassField {
 typedef struct JnPassType {
 	JnRow row;
 	size_t definition; ///< offset in JnSimDef of the pointer to its options; NULL there: this pass does not run
+	bool is_always;    ///< the options themselves stand there: it runs wherever `create` finds something to do
 	/// Build it for a model; *out is NULL when there is nothing to do. Messages begin with the key path.
 	JnStatus (*create)(const void* options, JnModel* model, JnPass** out);
 	void (*destroy)(JnPass*);
@@ -330,6 +358,7 @@ typedef struct JnPassType {
 	JnStatus (*prepare)(JnPass*, const JnStep*, int round);
 	/// Edit the end. *edited tells whether it did; *again asks for another round. A status above 0 fails the attempt.
 	JnStatus (*correct)(JnPass*, JnStep*, int round, bool* edited, bool* again);
+	/// Of an accepted step. Who changes what forces depend on, as fracture does, touches the end (jn_state_touch).
 	void (*commit)(JnPass*, const JnStep*);
 	/// Why the last attempt failed in this pass: a clause for a message, or "". At most `size` bytes.
 	void (*explain)(const JnPass*, size_t size, char* text);

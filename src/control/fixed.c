@@ -1,20 +1,16 @@
-// A step that fails is halved, up to `cuts` times. Halves are counted, so that the run comes back to the full step
-// exactly on its grid:  a step of level k is dt / 2^k, and the level falls by one when an even number of its halves is
-// done and the last few have worked.
+// A step that fails is halved, up to `cuts` times. A step of level k is dt / 2^k, and the level falls by one when an even
+// number of its halves is done and the last few have worked.
 #include "control/fixed.h"
 
 #include <math.h>
+#include <stdio.h>
+
+#include "control/halving.h"
 
 typedef struct FixedDef {
 	double dt;
 	int cuts, recovery;
 } FixedDef;
-
-typedef struct FixedMemory {
-	int level;            // halvings at present
-	int good;             // steps that worked since the last failure
-	unsigned long offset; // steps of this level done since the grid point of level 0
-} FixedMemory;
 
 static double size_at(const FixedDef* def, int level) {
 	return ldexp(def->dt, -level);
@@ -24,36 +20,25 @@ static double first(JnController* controller) {
 	return ((const FixedDef*)controller->options)->dt;
 }
 
-static void cut(FixedMemory* memory) {
-	++memory->level;
-	memory->offset *= 2;
-	memory->good = 0;
-}
-
-static void go_on(const FixedDef* def, FixedMemory* memory) {
-	++memory->good;
-	++memory->offset;
-	while (memory->level > 0 && memory->offset % 2 == 0 && memory->good >= def->recovery) {
-		--memory->level;
-		memory->offset /= 2;
-	}
-	if (memory->level == 0) memory->offset = 0;
-}
-
-static JnStatus judge(JnController* controller, const JnStep* step, JnStatus outcome, JnVerdict* verdict) {
+static JnStatus judge(JnController* controller, JnStep* step, JnStatus outcome, JnVerdict* verdict) {
 	const FixedDef* def = controller->options;
-	FixedMemory* memory = controller->memory;
+	JnHalving* halving = controller->memory;
 	verdict->accepted = outcome == JN_OK;
 	if (verdict->accepted) {
-		go_on(def, memory);
+		jn_halving_go_on(halving, def->recovery);
 	} else {
 		do { // the last step of a run may be shorter than its level: go below what has failed
-			if (memory->level >= def->cuts) return JN_RUN_FAILED;
-			cut(memory);
-		} while (size_at(def, memory->level) >= step->dt);
+			if (halving->level >= def->cuts) return JN_RUN_FAILED;
+			jn_halving_cut(halving);
+		} while (size_at(def, halving->level) >= step->dt);
 	}
-	verdict->dt = size_at(def, memory->level);
+	verdict->dt = size_at(def, halving->level);
 	return JN_OK;
+}
+
+static void explain(const JnController* controller, JnComplaint* out) {
+	snprintf(out->remedy, sizeof out->remedy, "a smaller %s.dt, a more robust method (backward_euler), or more %s.cuts",
+			 controller->path, controller->path);
 }
 
 static const JnKey keys[] = {
@@ -87,7 +72,8 @@ const JnControllerType jn_controller_fixed = {
 			.doc = "steps of one size; a step that fails is halved, and doubled again after some that work",
 			.keys = keys,
 			.options_size = sizeof(FixedDef)},
-	.memory_size = sizeof(FixedMemory),
+	.memory_size = sizeof(JnHalving),
 	.first = first,
 	.judge = judge,
+	.explain = explain,
 };
