@@ -10,6 +10,7 @@
 #include "pass/contact.h"
 
 static const double watched = 0.05; // margin, in mean edges of the finest surface
+static const double clear = 0.05;   // offset of a cloth, in its mean edges: h^2/(8 R) for h of a diagonal, R of 5 edges
 
 static JnStatus create_skin(JnContactPass* pass, int index, JnSkin* skin) {
 	const JnBody* body = &pass->model->bodies[index];
@@ -26,8 +27,28 @@ static JnStatus create_skin(JnContactPass* pass, int index, JnSkin* skin) {
 	return status;
 }
 
+// A body of triangles alone has no inside: its skin may have a rim, and a node that rests exactly on it is on neither side,
+// so that the next step could find it on the wrong one. Obstacles have an inside.
+static JnStatus check_sheet(const JnModel* model, int sheet) {
+	const JnBody* body = &model->bodies[sheet];
+	if (body->mesh.shape != JN_TRI3 || !body->contact.active) return JN_OK;
+	if (body->contact.self)
+		return jn_error(JN_BAD_INPUT,
+						"bodies[%d].contact.self: '%s' is a cloth without thickness, whose contact with itself is not "
+						"there yet; leave this key out",
+						sheet, body->name);
+	for (int b = 0; b < model->body_count; ++b)
+		if (b != sheet && model->bodies[b].contact.active)
+			return jn_error(JN_BAD_INPUT,
+							"bodies[%d].contact: '%s' is a cloth without thickness, which meets obstacles alone, not "
+							"bodies such as '%s'; say `contact: {active: false}` for one of them",
+							sheet, body->name, model->bodies[b].name);
+	return JN_OK;
+}
+
 static JnStatus create_skins(JnContactPass* pass) {
 	const JnModel* model = pass->model;
+	for (int b = 0; b < model->body_count; ++b) JN_TRY(check_sheet(model, b));
 	JN_NEW(&pass->arena, pass->skins, model->body_count);
 	JN_NEW(&pass->arena, pass->skin_of, model->body_count);
 	for (int b = 0; b < model->body_count; ++b) {
@@ -117,6 +138,12 @@ static double mean_edge(const JnSkin* skin, const double* at) {
 	return skin->triangle_count > 0 ? sum / (3 * skin->triangle_count) : INFINITY;
 }
 
+static void set_offset(const JnBody* body, double edge, JnSkin* skin) {
+	skin->offset = body->contact.offset;
+	if (isnan(skin->offset)) skin->offset = body->mesh.shape == JN_TRI3 ? clear * edge : 0;
+}
+
+// And the offsets, which depend on edges too.
 static JnStatus finest_edge(const JnContactPass* pass, double* edge) {
 	JnArena scratch = {0};
 	JnStatus status = JN_OK;
@@ -126,7 +153,9 @@ static JnStatus finest_edge(const JnContactPass* pass, double* edge) {
 		status = at != NULL ? JN_OK : JN_OUT_OF_MEMORY;
 		if (at == NULL) continue;
 		jn_skin_positions(&pass->skins[i], pass->model->rest, at);
-		*edge = fmin(*edge, mean_edge(&pass->skins[i], at));
+		const double mean = mean_edge(&pass->skins[i], at);
+		set_offset(&pass->model->bodies[pass->skins[i].body], mean, &pass->skins[i]);
+		*edge = fmin(*edge, mean);
 	}
 	jn_arena_free(&scratch);
 	return status;

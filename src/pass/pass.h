@@ -10,7 +10,9 @@ enum { JN_PASSES_MOST = 8 };
 
 extern const JnPassType* const jn_pass_list[]; ///< NULL at the end, in the order in which they run
 extern const JnPassType jn_pass_contact;
-extern const JnKey jn_contact_keys[]; ///< of JnContactDef
+extern const JnPassType jn_pass_fracture;
+extern const JnKey jn_contact_keys[];  ///< of JnContactDef
+extern const JnKey jn_fracture_keys[]; ///< of JnFractureDef
 
 /// The passes of a simulation. All zero is valid and does nothing.
 typedef struct JnPasses {

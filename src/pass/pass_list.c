@@ -1,13 +1,14 @@
 // The passes that simulations may run, and running them.
 #include "pass/pass.h"
 
-const JnPassType* const jn_pass_list[] = {&jn_pass_contact, NULL};
+const JnPassType* const jn_pass_list[] = {&jn_pass_contact, &jn_pass_fracture, NULL};
 
 JnStatus jn_passes_create(const JnSimDef* def, JnModel* model, JnPasses* passes) {
 	*passes = (JnPasses){0};
 	for (int i = 0; jn_pass_list[i] != NULL; ++i) {
 		const JnPassType* type = jn_pass_list[i];
-		const void* options = *(const void* const*)((const char*)def + type->definition);
+		const void* place = (const char*)def + type->definition;
+		const void* options = type->is_always ? place : *(const void* const*)place;
 		JnPass* pass = NULL;
 		const JnStatus status = options != NULL ? type->create(options, model, &pass) : JN_OK;
 		if (pass != NULL) passes->list[passes->count++] = pass;
