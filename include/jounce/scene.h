@@ -19,8 +19,9 @@ typedef struct JnProbeDef {
 } JnProbeDef;
 
 typedef struct JnRecordDef {
-	double interval; ///< simulated time between frames [s]; 0: every step
-	bool plots;      ///< draw plots/ at the end
+	double interval;  ///< simulated time between frames [s]; 0: every step
+	bool exact_times; ///< steps end on frames; else frames are interpolated between steps
+	bool plots;       ///< draw plots/ at the end
 } JnRecordDef;
 
 /// All that a scene file says.

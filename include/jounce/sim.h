@@ -28,10 +28,18 @@ typedef struct JnContactDef {
 	JnVariant solver; ///< row of jn_qp_list
 } JnContactDef;
 
+/// When what can break may do so; which strains break it is the material's (docs/peridynamics.md).
+typedef struct JnFractureDef {
+	double start;  ///< nothing breaks before this time [s]
+	double debris; ///< nodes that have lost this share of their elements lose the rest; 1: none
+} JnFractureDef;
+
 typedef struct JnSimDef {
 	JnModelDef model;
+	JnVariant system;      ///< row of jn_system_list, simulated in place of a model; row NULL: none
 	JnContactDef* contact; ///< NULL: bodies pass through each other
-	JnVariant integrator;  ///< row of the integrator list
+	JnFractureDef fracture;
+	JnVariant integrator; ///< row of the integrator list
 	JnNewtonDef newton;
 	JnVariant step;  ///< row of the controller list
 	double duration; ///< simulated time [s]
@@ -57,10 +65,27 @@ JnStatus jn_sim_step(JnSim* sim);
 /// Has the whole duration been simulated?
 bool jn_sim_is_done(const JnSim* sim);
 
-JnModel* jn_sim_model(JnSim* sim); ///< NULL for a system of the user's own
+/// Let no step go beyond time t [s], from now on; INFINITY: only the duration ends steps. The controller goes on afterwards
+/// with the size that it wanted.
+void jn_sim_stop_at(JnSim* sim, double t);
+
+JnModel* jn_sim_model(JnSim* sim); ///< NULL for a built-in system, and for one of the user's own
+
+/// Energies and momenta of the present state, and the mass [kg], of a model or a built-in system.
+JnEnergies jn_sim_energies(JnSim* sim);
+double jn_sim_mass(const JnSim* sim);
+
+JnSystem* jn_sim_system(JnSim* sim); ///< what is stepped
 const JnState* jn_sim_state(const JnSim* sim);
+
+/// Fill `out`, of the system's space, with the state at a time t within the last accepted step: positions on the cubic between
+/// its ends (error of fourth order in the step), velocities by its derivative (third order); straight lines where contact has
+/// edited the end. Held nodes are where they should be. At the end of the step, and later, it is a copy of jn_sim_state.
+void jn_sim_state_at(const JnSim* sim, double t, JnState* out);
+
 long jn_sim_steps(const JnSim* sim);                  ///< accepted so far
 double jn_sim_last_dt(const JnSim* sim);              ///< size of the last accepted step [s]; 0 before the first
+double jn_sim_next_dt(const JnSim* sim);              ///< size of the next attempt, if nothing ends it earlier [s]
 const JnReport* jn_sim_last_report(const JnSim* sim); ///< cost of the last step, its rejected attempts included
 int jn_sim_threads(const JnSim* sim);
 

@@ -81,7 +81,7 @@ typedef struct JnRecordEnd {
 	double wall_seconds; ///< time spent stepping
 	double setup_seconds;
 	double seconds_predict, seconds_detect, seconds_factor, seconds_qp; ///< parts of wall_seconds, as in JnReport
-	long steps, frames, rejected, newton, factorizations, solves, forces, tangents, indefinite, minimized;
+	long steps, frames, rejected, newton, factorizations, solves, iterations, forces, tangents, indefinite, minimized;
 	double t, t_end;                           ///< reached and wanted [s]
 	double specific_error, specific_error_max; ///< |e_tot(t) - e_tot(0)|, at the end and largest [J/kg]
 } JnRecordEnd;

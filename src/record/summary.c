@@ -103,14 +103,14 @@ static void print_counts(JnTextFile* file, const JnRecordInfo* info, const JnRec
 		const char* name;
 		long value;
 	} counts[] = {
-		{"nodes", info->node_count},      {"cells", cells},
-		{"bodies", info->body_count},     {"steps", end->steps},
-		{"frames", end->frames},          {"rejected", end->rejected},
-		{"newton", end->newton},          {"factorizations", end->factorizations},
-		{"solves", end->solves},          {"forces", end->forces},
-		{"tangents", end->tangents},      {"indefinite", end->indefinite},
-		{"minimized", end->minimized},    {"threads", info->threads},
-		{"simd_width", info->simd_width},
+		{"nodes", info->node_count},     {"cells", cells},
+		{"bodies", info->body_count},    {"steps", end->steps},
+		{"frames", end->frames},         {"rejected", end->rejected},
+		{"newton", end->newton},         {"factorizations", end->factorizations},
+		{"solves", end->solves},         {"iterations", end->iterations},
+		{"forces", end->forces},         {"tangents", end->tangents},
+		{"indefinite", end->indefinite}, {"minimized", end->minimized},
+		{"threads", info->threads},      {"simd_width", info->simd_width},
 	};
 	for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
 		jn_text_print(file, "\t\"%s\": %ld,\n", counts[i].name, counts[i].value);

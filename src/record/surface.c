@@ -78,6 +78,8 @@ static JnStatus write_embedding(JnH5File* file, const JnRecordBody* body) {
 	free(global);
 	JN_TRY(status);
 	JN_TRY(write_array(file, body, "rest", H5T_NATIVE_DOUBLE, vertices, 3, embedding->surface.nodes));
+	if (embedding->offsets != NULL)
+		JN_TRY(write_array(file, body, "offsets", H5T_NATIVE_DOUBLE, vertices, 3, embedding->offsets));
 	return write_array(file, body, "weights", H5T_NATIVE_DOUBLE, vertices, nodes, embedding->weights);
 }
 

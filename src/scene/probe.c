@@ -70,6 +70,9 @@ static JnStatus check_probe(const JnProbeDef* def, int index, const JnItems* bod
 }
 
 JnStatus jn_probes_check(const JnSceneDef* def) {
+	if (def->probes.count > 0 && def->sim.system.row != NULL)
+		return jn_error(JN_BAD_INPUT, "probes: follow nodes of bodies, and '%s' has columns of its own; take them out",
+						def->sim.system.row->name);
 	for (int i = 0; i < def->probes.count; ++i)
 		JN_TRY(check_probe((const JnProbeDef*)def->probes.data + i, i, &def->sim.model.bodies));
 	return JN_OK;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/folder.h"
+#include "base/space.h"
 #include "base/timer.h"
 #include "model/model.h"
 
@@ -15,6 +16,7 @@ static void count_step(JnRun* run) {
 	run->end.newton += report->newton;
 	run->end.factorizations += report->factorizations;
 	run->end.solves += report->solves;
+	run->end.iterations += report->iterations;
 	run->end.forces += report->forces;
 	run->end.tangents += report->tangents;
 	run->end.indefinite += report->indefinite;
@@ -26,8 +28,7 @@ static void count_step(JnRun* run) {
 	run->end.seconds_qp += report->seconds_qp;
 }
 
-static JnStatus write_record(JnRun* run, const double* values, bool is_frame) {
-	const JnState* state = jn_sim_state(run->sim);
+static JnStatus write_record(JnRun* run, const JnState* state, const double* values, bool is_frame) {
 	const JnRecordStep step = {.step = jn_sim_steps(run->sim),
 							   .t = state->t,
 							   .is_frame = is_frame,
@@ -38,18 +39,25 @@ static JnStatus write_record(JnRun* run, const double* values, bool is_frame) {
 	jn_run_find_fields(run);
 	run->frame_is_written = is_frame;
 	run->end.frames += is_frame;
-	run->end.t = state->t;
+	run->end.t = jn_sim_state(run->sim)->t;
 	return jn_recorders_write(&run->recorders, &step);
 }
 
-// A frame is due at the first step at or after each multiple of the interval.
+// Frames stand at the multiples of the interval: those within the step are interpolated, with the fields of the step, and one
+// at its end is the end itself. Interval 0: every end.
 static JnStatus write_step(JnRun* run) {
-	const double interval = run->scene->def.record.interval, t = jn_sim_state(run->sim)->t;
+	const JnState* state = jn_sim_state(run->sim);
+	const double interval = run->scene->def.record.interval, t = state->t;
 	const double slack = 1e-9 * (jn_sim_last_dt(run->sim) + interval);
+	for (; interval > 0 && run->next_frame < t - slack; run->next_frame = interval * ++run->frames_due) {
+		jn_sim_state_at(run->sim, run->next_frame, &run->between);
+		JN_TRY(write_record(run, &run->between, NULL, true));
+	}
 	const bool is_due = t >= run->next_frame - slack;
-	if (is_due) run->next_frame = interval > 0 ? interval * (floor((t + slack) / interval) + 1) : t;
+	if (is_due && interval > 0) run->next_frame = interval * ++run->frames_due;
+	if (run->scene->def.record.exact_times && interval > 0) jn_sim_stop_at(run->sim, run->next_frame);
 	jn_run_measure(run);
-	return write_record(run, run->values, is_due || jn_sim_is_done(run->sim));
+	return write_record(run, state, run->values, is_due || jn_sim_is_done(run->sim));
 }
 
 static bool wants_more(JnRun* run) {
@@ -86,6 +94,7 @@ static JnStatus prepare(JnRun* run) {
 	run->end.t_end = run->scene->def.sim.duration;
 	JN_TRY(jn_recorders_open(&run->recorders, &run->arena, &run->info));
 	run->recorders_are_open = true;
+	JN_TRY(jn_state_create(jn_sim_system(run->sim)->space, &run->between));
 	run->end.setup_seconds = jn_seconds() - began;
 	return JN_OK;
 }
@@ -94,7 +103,8 @@ static JnStatus prepare(JnRun* run) {
 static JnStatus finish(JnRun* run, JnStatus status, bool was_stopped) {
 	if (!run->recorders_are_open) return status;
 	JnStatus written = JN_OK;
-	if (status != JN_IO_FAILED && !run->frame_is_written) written = write_record(run, NULL, true);
+	if (status != JN_IO_FAILED && !run->frame_is_written)
+		written = write_record(run, jn_sim_state(run->sim), NULL, true);
 	run->end.outcome = status != JN_OK ? "failed" : was_stopped ? "interrupted" : "done";
 	run->end.message = status == JN_OK ? "" : run->message[0] != '\0' ? run->message : jn_status_name(status);
 	const JnStatus closed = jn_recorders_close(&run->recorders, &run->end);
@@ -102,9 +112,9 @@ static JnStatus finish(JnRun* run, JnStatus status, bool was_stopped) {
 	return status == JN_OK ? closed : status;
 }
 
-static int element_count(const JnModel* model) {
+static int element_count(const JnRecordInfo* info) {
 	int count = 0;
-	for (int b = 0; b < model->body_count; ++b) count += model->bodies[b].group.count;
+	for (int b = 0; b < info->body_count; ++b) count += info->bodies[b].cell_count;
 	return count;
 }
 
@@ -118,8 +128,8 @@ static void fill_result(JnRun* run, JnRunResult* result) {
 	result->wall_seconds = run->end.wall_seconds;
 	result->specific_error = run->end.specific_error;
 	if (run->sim == NULL) return;
-	result->nodes = jn_model_node_count(jn_sim_model(run->sim));
-	result->elements = element_count(jn_sim_model(run->sim));
+	result->nodes = run->info.node_count;
+	result->elements = element_count(&run->info);
 }
 
 // The summary says why a run failed in the words of the last error.
@@ -138,6 +148,7 @@ JnStatus jn_scene_run(const JnScene* scene, const JnRunOptions* options, JnRunRe
 	status = finish(&run, status, result->was_stopped);
 	jn_log_swap(run.outer);
 	fill_result(&run, result);
+	if (run.between.x != NULL) jn_state_destroy(jn_sim_system(run.sim)->space, &run.between);
 	jn_sim_destroy(run.sim);
 	jn_arena_free(&run.arena);
 	return status;

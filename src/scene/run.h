@@ -22,6 +22,8 @@ typedef struct JnRun {
 	double total_at_start;
 	double began;      ///< clock when stepping began [s]
 	double next_frame; ///< time of the next frame that is due [s]
+	long frames_due;   ///< number of that frame
+	JnState between;   ///< a frame between steps
 	bool frame_is_written, recorders_are_open;
 	JnLog outer;        ///< where messages go on to
 	char message[1024]; ///< the last error

@@ -7,11 +7,12 @@
 #include "mesh/boundary.h"
 #include "mesh/embed.h"
 #include "model/model.h"
+#include "model/system_list.h"
 #include "scene/place.h"
 #include "scene/run.h"
 #include "solve/blas.h"
 
-// The columns that every run has, in this order; then those of passes, and three for each probe.
+// The columns that every run has, in this order; then those of the system or of passes, and three for each probe.
 static const JnColumn fixed_columns[] = {
 	{"step", "", true},
 	{"t", "s", false},
@@ -24,6 +25,7 @@ static const JnColumn fixed_columns[] = {
 	{"newton", "", true},
 	{"factorizations", "", true},
 	{"solves", "", true},
+	{"iterations", "", true},
 	{"rejected", "", true},
 	{"minimized", "", true},
 	{"momentum.x", "kg m/s", false},
@@ -35,21 +37,31 @@ static const JnColumn fixed_columns[] = {
 };
 enum { FIXED_COLUMNS = sizeof fixed_columns / sizeof *fixed_columns };
 
-static int pass_columns(const JnRun* run) {
-	int passes, count = 0;
+// The built-in system that is simulated; NULL: a model is.
+static const JnSystemType* system_of(const JnRun* run) {
+	return (const JnSystemType*)run->scene->def.sim.system.row;
+}
+
+// Columns of passes, or of the system.
+static int more_columns(const JnRun* run) {
+	int passes, count = system_of(run) != NULL ? system_of(run)->column_count : 0;
 	JnPass* const* list = jn_sim_passes(run->sim, &passes);
 	for (int i = 0; i < passes; ++i) count += list[i]->type->column_count;
 	return count;
 }
 
-static void name_pass_columns(const JnRun* run, JnColumn* columns) {
+static JnColumn* copy_columns(int count, const JnPassColumn* from, JnColumn* to) {
+	for (int k = 0; k < count; ++k) *to++ = (JnColumn){from[k].name, from[k].unit, from[k].is_count};
+	return to;
+}
+
+static void name_more_columns(const JnRun* run, JnColumn* columns) {
 	int passes;
+	const JnSystemType* system = system_of(run);
 	JnPass* const* list = jn_sim_passes(run->sim, &passes);
+	if (system != NULL) columns = copy_columns(system->column_count, system->columns, columns);
 	for (int i = 0; i < passes; ++i)
-		for (int k = 0; k < list[i]->type->column_count; ++k) {
-			const JnPassColumn* column = &list[i]->type->columns[k];
-			*columns++ = (JnColumn){column->name, column->unit, column->is_count};
-		}
+		columns = copy_columns(list[i]->type->column_count, list[i]->type->columns, columns);
 }
 
 static JnStatus name_fields(JnRun* run) {
@@ -77,8 +89,13 @@ void jn_run_find_fields(JnRun* run) {
 		for (int k = 0; k < list[i]->type->field_count; ++k) *fields++ = list[i]->type->field(list[i], k);
 }
 
-static double* measure_passes(const JnRun* run, double* values) {
+static double* measure_more(const JnRun* run, double* values) {
 	int passes;
+	const JnSystemType* system = system_of(run);
+	if (system != NULL) {
+		system->measure(run->scene->def.sim.system.options, jn_sim_state(run->sim), values);
+		values += system->column_count;
+	}
 	JnPass* const* list = jn_sim_passes(run->sim, &passes);
 	for (int i = 0; i < passes; ++i) {
 		list[i]->type->measure(list[i], values);
@@ -102,12 +119,12 @@ static JnStatus find_probes(JnRun* run, const JnModel* model) {
 static JnStatus name_columns(JnRun* run) {
 	const JnItems* probes = &run->scene->def.probes;
 	JnColumn* columns;
-	const int first_probe = FIXED_COLUMNS + pass_columns(run);
+	const int first_probe = FIXED_COLUMNS + more_columns(run);
 	run->info.column_count = first_probe + 3 * probes->count;
 	JN_NEW(&run->arena, columns, run->info.column_count);
 	JN_NEW(&run->arena, run->values, run->info.column_count);
 	memcpy(columns, fixed_columns, sizeof fixed_columns);
-	name_pass_columns(run, columns + FIXED_COLUMNS);
+	name_more_columns(run, columns + FIXED_COLUMNS);
 	for (int i = 0; i < probes->count; ++i) {
 		const JnProbeDef* probe = (const JnProbeDef*)probes->data + i;
 		for (int axis = 0; axis < 3; ++axis) {
@@ -193,8 +210,28 @@ static JnStatus annotate_text(JnRun* run) {
 	return JN_OK;
 }
 
+static JnStatus describe_model(JnRun* run, const JnModel* model) {
+	run->info.node_count = model->node_count;
+	run->info.nodes = model->rest;
+	JN_TRY(list_bodies(run, model));
+	JN_TRY(list_obstacles(run, model));
+	return find_probes(run, model);
+}
+
+// Nodes without cells, which rest where they start.
+static JnStatus describe_system(JnRun* run) {
+	const JnSystemType* system = system_of(run);
+	const size_t length = jn_sim_system(run->sim)->space->length;
+	double *x, *v;
+	JN_NEW(&run->arena, x, length);
+	JN_NEW(&run->arena, v, length);
+	system->start(run->scene->def.sim.system.options, x, v);
+	run->info.node_count = (int)(length / 3);
+	run->info.nodes = x;
+	return JN_OK;
+}
+
 JnStatus jn_run_describe(JnRun* run) {
-	const JnModel* model = jn_sim_model(run->sim);
 	char* blas;
 	JN_NEW(&run->arena, blas, 96);
 	jn_blas_name(blas, 96);
@@ -202,17 +239,13 @@ JnStatus jn_run_describe(JnRun* run) {
 	run->info.scene_name = run->scene->def.name;
 	run->info.scene_path = run->scene->document.path;
 	run->info.method = run->scene->def.sim.integrator.row->name;
-	run->info.node_count = model->node_count;
-	run->info.nodes = model->rest;
 	run->info.wants_plots = run->scene->def.record.plots;
-	run->info.total_mass = model->total_mass;
+	run->info.total_mass = jn_sim_mass(run->sim);
 	run->info.threads = jn_sim_threads(run->sim);
 	run->info.simd_width = jn_kernel_best_width();
 	run->info.blas = blas;
 	JN_TRY(annotate_text(run));
-	JN_TRY(list_bodies(run, model));
-	JN_TRY(list_obstacles(run, model));
-	JN_TRY(find_probes(run, model));
+	JN_TRY(system_of(run) != NULL ? describe_system(run) : describe_model(run, jn_sim_model(run->sim)));
 	JN_TRY(name_fields(run));
 	return name_columns(run);
 }
@@ -220,7 +253,7 @@ JnStatus jn_run_describe(JnRun* run) {
 void jn_run_measure(JnRun* run) {
 	const JnReport* report = jn_sim_last_report(run->sim);
 	const JnState* state = jn_sim_state(run->sim);
-	const JnEnergies e = jn_model_energies(jn_sim_model(run->sim), state);
+	const JnEnergies e = jn_sim_energies(run->sim);
 	const double total = e.kinetic + e.elastic + e.gravity;
 	const bool at_start = jn_sim_steps(run->sim) == 0;
 	if (at_start) run->total_at_start = total;
@@ -237,6 +270,7 @@ void jn_run_measure(JnRun* run) {
 										  at_start ? 0 : report->newton,
 										  at_start ? 0 : report->factorizations,
 										  at_start ? 0 : report->solves,
+										  at_start ? 0 : report->iterations,
 										  at_start ? 0 : report->rejected,
 										  at_start ? 0 : report->minimized,
 										  e.momentum[0],
@@ -246,6 +280,6 @@ void jn_run_measure(JnRun* run) {
 										  e.angular[1],
 										  e.angular[2]};
 	memcpy(run->values, values, sizeof values);
-	double* probes = measure_passes(run, run->values + FIXED_COLUMNS);
+	double* probes = measure_more(run, run->values + FIXED_COLUMNS);
 	for (int i = 0; i < run->scene->def.probes.count; ++i) jn_probe_position(&run->probes[i], state->x, probes + 3 * i);
 }

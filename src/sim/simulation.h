@@ -1,0 +1,33 @@
+/// @file simulation.h
+/// A simulation in the flesh, shared by create.c (which builds it) and sim.c (which steps it).
+#ifndef JN_SIM_SIMULATION_H
+#define JN_SIM_SIMULATION_H
+
+#include "base/arena.h"
+#include "control/controller.h"
+#include "integrate/integrator.h"
+#include "jounce/sim.h"
+#include "pass/pass.h"
+
+struct JnSim {
+	const JnSimDef* def;
+	JnArena arena; // of settings given as text
+	JnSimDef settings;
+	int threads;
+	JnModel* model;     // NULL when the system is built in, or the user's
+	JnSystem* built_in; // NULL: none
+	JnVec work[2];      // of a built-in system
+	JnSystem* sys;
+	JnIntegrator* integrator;
+	JnController* controller;
+	JnPasses passes;
+	JnState start; // the present state: the end of the last accepted step
+	JnState end;   // of the attempt; between steps, the state before the present one
+	double next_dt, last_dt;
+	bool was_edited; // by a pass: the end of the last accepted step
+	double stop;     // no step goes beyond this time [s]
+	long steps;
+	JnReport report;
+};
+
+#endif
