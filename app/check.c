@@ -3,7 +3,6 @@
 #include <stdio.h>
 
 #include "app.h"
-#include "control/controller.h"
 #include "control/fixed.h"
 #include "jounce/scene.h"
 #include "model/model.h"
@@ -33,26 +32,27 @@ static void print_obstacles(const JnModel* model) {
 }
 
 // The first step is the only one that every controller knows beforehand; `fixed` keeps to it.
-static JnStatus print_steps(const JnSimDef* def) {
-	JnController* controller = jn_controller_create(&def->step);
-	if (controller == NULL) return JN_OUT_OF_MEMORY;
-	const double dt = controller->type->first(controller);
-	if (controller->type == &jn_controller_fixed)
+static void print_steps(const JnSimDef* def, const JnSim* sim) {
+	const double dt = jn_sim_next_dt(sim);
+	if (def->step.row == &jn_controller_fixed.row)
 		printf("  steps       %.0f of %g s, to t = %g s\n", fmax(1, ceil(def->duration / dt - 1e-9)), dt,
 			   def->duration);
 	else
 		printf("  steps       chosen by '%s', the first %g s, to t = %g s\n", def->step.row->name, dt, def->duration);
-	jn_controller_destroy(controller);
-	return JN_OK;
 }
 
-static JnStatus print_findings(const SceneOptions* options, const JnSceneDef* def, const JnModel* model) {
+static void print_findings(const SceneOptions* options, const JnSceneDef* def, JnSim* sim) {
+	const JnModel* model = jn_sim_model(sim);
 	printf("%s: ok\n  scene       %s%s%s\n", options->scene, def->name, def->description != NULL ? ": " : "",
 		   def->description != NULL ? def->description : "");
-	print_bodies(&def->sim.model, model);
-	print_obstacles(model);
+	if (model != NULL) {
+		print_bodies(&def->sim.model, model);
+		print_obstacles(model);
+	} else {
+		printf("  system      %s: %s\n", def->sim.system.row->name, def->sim.system.row->doc);
+	}
 	printf("  integrator  %s\n", def->sim.integrator.row->name);
-	return print_steps(&def->sim);
+	print_steps(&def->sim, sim);
 }
 
 static JnStatus check(const SceneOptions* options) {
@@ -60,7 +60,7 @@ static JnStatus check(const SceneOptions* options) {
 	JnSim* sim = NULL;
 	JN_TRY(jn_scene_load(options->scene, options->set_count, options->sets, &scene));
 	JnStatus status = jn_scene_build(scene, options->threads, &sim);
-	if (status == JN_OK) status = print_findings(options, jn_scene_def(scene), jn_sim_model(sim));
+	if (status == JN_OK) print_findings(options, jn_scene_def(scene), sim);
 	jn_sim_destroy(sim);
 	jn_scene_destroy(scene);
 	return status;

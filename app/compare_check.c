@@ -7,7 +7,6 @@
 
 #include "app.h"
 #include "base/log.h"
-#include "control/controller.h"
 #include "jounce/scene.h"
 
 // What all runs must share with the reference.
@@ -24,42 +23,41 @@ static void name_run(void* user, JnLogLevel level, const char* message) {
 	fprintf(stderr, "jounce: error: %s: %s\n", run->is_reference ? "the reference" : run->label, message);
 }
 
-static JnStatus keep_common(JnSim* sim, double duration, Common* common) {
+// Rest positions of a model; a system of equations rests where it starts.
+static const double* rest_of(JnSim* sim) {
 	JnModel* model = jn_sim_model(sim);
+	return model != NULL ? jn_model_rest(model) : jn_sim_state(sim)->x;
+}
+
+static int nodes_of(JnSim* sim) {
+	return (int)(jn_sim_system(sim)->space->length / 3);
+}
+
+static JnStatus keep_common(JnSim* sim, double duration, Common* common) {
 	common->duration = duration;
-	common->node_count = jn_model_node_count(model);
+	common->node_count = nodes_of(sim);
 	const size_t bytes = 3 * (size_t)common->node_count * sizeof(double);
 	common->rest = malloc(bytes);
 	if (common->rest == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for %zu bytes", bytes);
-	memcpy(common->rest, jn_model_rest(model), bytes);
+	memcpy(common->rest, rest_of(sim), bytes);
 	return JN_OK;
 }
 
 static JnStatus compare_common(JnSim* sim, double duration, const Common* common) {
-	JnModel* model = jn_sim_model(sim);
 	if (common->rest == NULL) return JN_OK;
 	if (duration != common->duration)
 		return jn_error(JN_BAD_INPUT,
 						"the run ends at %g s and the reference at %g s, so that their ends cannot be compared; give "
 						"both one duration",
 						duration, common->duration);
-	if (jn_model_node_count(model) != common->node_count)
+	if (nodes_of(sim) != common->node_count)
 		return jn_error(JN_BAD_INPUT,
 						"the run has %d nodes and the reference %d, so that they cannot be compared node by node; give "
 						"both one mesh",
-						jn_model_node_count(model), common->node_count);
-	if (memcmp(jn_model_rest(model), common->rest, 3 * (size_t)common->node_count * sizeof(double)) != 0)
+						nodes_of(sim), common->node_count);
+	if (memcmp(rest_of(sim), common->rest, 3 * (size_t)common->node_count * sizeof(double)) != 0)
 		return jn_error(JN_BAD_INPUT, "the nodes of the run and of the reference lie elsewhere at rest, so that they "
 									  "cannot be compared node by node; give both one mesh");
-	return JN_OK;
-}
-
-static JnStatus estimate_work(const JnSceneDef* def, CompareRun* run) {
-	JnController* controller = jn_controller_create(&def->sim.step);
-	if (controller == NULL) return JN_OUT_OF_MEMORY;
-	const double dt = controller->type->first(controller);
-	run->work = dt > 0 ? def->sim.duration / dt : 1;
-	jn_controller_destroy(controller);
 	return JN_OK;
 }
 
@@ -67,7 +65,7 @@ static JnStatus check_scene(const CompareOptions* options, const JnScene* scene,
 	JnSim* sim = NULL;
 	const JnSceneDef* def = jn_scene_def(scene);
 	JnStatus status = jn_scene_build(scene, options->threads, &sim);
-	if (status == JN_OK) status = estimate_work(def, run);
+	if (status == JN_OK) run->work = def->sim.duration / jn_sim_next_dt(sim);
 	if (status == JN_OK && run->is_reference)
 		status = keep_common(sim, def->sim.duration, common);
 	else if (status == JN_OK)

@@ -12,12 +12,13 @@
 #include "integrate/properties.h"
 #include "mesh/shape/shape.h"
 #include "model/motion.h"
+#include "model/system_list.h"
 #include "solve/qp.h"
 #include "solve/solver.h"
 
 static const char help[] =
 	"usage: jounce list [integrators|materials|shapes|elements|obstacles|motions|solvers|contact_solvers|\n"
-	"                    controllers] [--json]\n\n"
+	"                    controllers|systems] [--json]\n\n"
 	"Without a word: all of them. Properties of integrators follow from their coefficients, or are measured on an\n"
 	"undamped oscillator:\n"
 	"  solves   linear or nonlinear systems a step     A, L    A-stable, L-stable     SA  stiffly accurate\n"
@@ -119,7 +120,7 @@ static const Catalogue catalogues[] = {
 	{"shapes", &jn_shape_list},           {"elements", NULL},
 	{"obstacles", &jn_obstacle_list},     {"motions", &jn_motion_list},
 	{"solvers", &jn_solver_list},         {"contact_solvers", &jn_qp_list},
-	{"controllers", &jn_controller_list},
+	{"controllers", &jn_controller_list}, {"systems", &jn_system_list},
 };
 enum { CATALOGUES = sizeof catalogues / sizeof *catalogues };
 

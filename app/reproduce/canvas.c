@@ -59,6 +59,24 @@ void canvas_fill(Canvas* canvas, const Corner c[3], const Paint* paint) {
 		}
 }
 
+void canvas_ball(Canvas* canvas, const Corner* at, double radius, double depth, const Paint* paint) {
+	const double reach = fmax(radius, 0.5);
+	const int left = (int)fmax(ceil(at->x - reach - 0.5), 0), top = (int)fmax(ceil(at->y - reach - 0.5), 0);
+	const int right = (int)fmin(floor(at->x + reach - 0.5), canvas->width - 1);
+	const int bottom = (int)fmin(floor(at->y + reach - 0.5), canvas->height - 1);
+	for (int y = top; y <= bottom; ++y)
+		for (int x = left; x <= right; ++x) {
+			Corner point = *at;
+			point.normal[0] = (x + 0.5 - at->x) / reach;
+			point.normal[1] = (at->y - y - 0.5) / reach;
+			const double rest = 1 - point.normal[0] * point.normal[0] - point.normal[1] * point.normal[1];
+			point.normal[2] = sqrt(fmax(rest, 0));
+			point.depth += depth * point.normal[2];
+			const Corner same[3] = {point, point, point};
+			if (rest >= 0) fill_pixel(canvas, same, (const double[3]){1, 0, 0}, paint, x, y);
+		}
+}
+
 void canvas_reduce(const Canvas* canvas, int stride, unsigned char* pixels) {
 	for (int y = 0; y < canvas->height / CANVAS_FINER; ++y)
 		for (int x = 0; x < canvas->width / CANVAS_FINER; ++x)

@@ -25,6 +25,10 @@ typedef struct Paint {
 /// Draw a triangle where nothing is in front of it.
 void canvas_fill(Canvas* canvas, const Corner corners[3], const Paint* paint);
 
+/// Draw a ball with its middle at `at`, whose normal does not matter: `radius` in pixels, `depth` its radius in metres.
+/// It is one pixel wide at least.
+void canvas_ball(Canvas* canvas, const Corner* at, double radius, double depth, const Paint* paint);
+
 /// The means of the finer pixels, as bytes, to an array that is `stride` pixels wide.
 void canvas_reduce(const Canvas* canvas, int stride, unsigned char* pixels);
 

@@ -84,10 +84,22 @@ int frames_nearest(const Frames* frames, double t) {
 	return nearest;
 }
 
+static JnStatus read_numbers(const Frames* frames, int frame, const char* what, hssize_t count, double* numbers) {
+	char name[160];
+	snprintf(name, sizeof name, "/frames/%08d/%s", frame, what);
+	const JnStatus status = recording_file_array(frames->file, name, H5T_NATIVE_DOUBLE, count, numbers);
+	return status == JN_OK ? status : jn_error(status, "%s in frame %d of a recording cannot be read", what, frame);
+}
+
 JnStatus frames_read(const Frames* frames, int frame, double* points) {
-	char name[80];
-	snprintf(name, sizeof name, "/frames/%08d/%s", frame, frames->are_nodes ? "position" : "surface");
-	const JnStatus status =
-		recording_file_array(frames->file, name, H5T_NATIVE_DOUBLE, 3 * (hssize_t)frames->point_count, points);
-	return status == JN_OK ? status : jn_error(status, "frame %d of a recording cannot be read", frame);
+	const char* what = frames->are_nodes ? "position" : "surface";
+	return read_numbers(frames, frame, what, 3 * (hssize_t)frames->point_count, points);
+}
+
+JnStatus frames_read_nodes(const Frames* frames, int frame, double* positions) {
+	return read_numbers(frames, frame, "position", 3 * (hssize_t)frames->node_count, positions);
+}
+
+JnStatus frames_read_field(const Frames* frames, int frame, const char* field, double* values) {
+	return read_numbers(frames, frame, field, frames->node_count, values);
 }

@@ -35,4 +35,8 @@ int frames_nearest(const Frames* frames, double t);
 /// Positions of all points in a frame, 3 * point_count [m].
 JnStatus frames_read(const Frames* frames, int frame, double* points);
 
+/// Positions of all nodes in a frame, 3 * node_count [m], and a field with one number a node, such as "damage".
+JnStatus frames_read_nodes(const Frames* frames, int frame, double* positions);
+JnStatus frames_read_field(const Frames* frames, int frame, const char* field, double* values);
+
 #endif

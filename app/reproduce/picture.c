@@ -37,18 +37,38 @@ static JnStatus fill_panel(const Frames* frames, double t, const char* title, Jn
 	return JN_OK;
 }
 
-JnStatus picture_add(Picture* picture, const char* folder, double t, const char* title) {
+static JnStatus fill_points(const Frames* frames, double t, const PointPaint* paint, JnArena* arena,
+							PanelPoints* points) {
+	const int frame = frames_nearest(frames, t);
+	*points = (PanelPoints){.count = frames->node_count, .paint = *paint};
+	JN_NEW(arena, points->at, 3 * (size_t)frames->node_count);
+	JN_NEW(arena, points->values, frames->node_count);
+	JN_TRY(frames_read_nodes(frames, frame, points->at));
+	return frames_read_field(frames, frame, paint->field, points->values);
+}
+
+static JnStatus add_panel(Picture* picture, const char* folder, double t, const char* title, const PointPaint* paint) {
 	Frames frames;
 	Panel panel = {0};
 	JnStatus status = frames_open(folder, &frames);
 	if (status == JN_OK && picture->count == PICTURE_MOST_PANELS)
 		status = jn_error(JN_BAD_INPUT, "%s: more than %d panels", picture->name, PICTURE_MOST_PANELS);
 	if (status == JN_OK) status = fill_panel(&frames, t, title, &picture->arena, &panel);
+	if (status == JN_OK && paint != NULL) status = fill_points(&frames, t, paint, &picture->arena, &panel.points);
 	panel.paint_count = picture->paint_count;
 	panel.paints = picture->paints;
 	if (status == JN_OK) picture->panels[picture->count++] = panel;
 	frames_close(&frames);
 	return status;
+}
+
+JnStatus picture_add(Picture* picture, const char* folder, double t, const char* title) {
+	return add_panel(picture, folder, t, title, NULL);
+}
+
+JnStatus picture_add_points(Picture* picture, const char* folder, double t, const char* title,
+							const PointPaint* paint) {
+	return add_panel(picture, folder, t, title, paint);
 }
 
 void picture_free(Picture* picture) {

@@ -18,6 +18,20 @@ typedef enum PaintName {
 	PAINT_OLIVE,
 } PaintName;
 
+/// How points are drawn: as balls, coloured by a field of the recording, from pale at `low` to dark red at `high`.
+typedef struct PointPaint {
+	const char* field; ///< one number a node, such as "damage"
+	double low, high;
+	double radius; ///< [m]
+} PointPaint;
+
+typedef struct PanelPoints {
+	int count;
+	double* at;     ///< 3 * count [m]
+	double* values; ///< of the field
+	PointPaint paint;
+} PanelPoints;
+
 /// One view of a frame.
 typedef struct Panel {
 	char title[96];
@@ -25,6 +39,7 @@ typedef struct Panel {
 	const int* bodies; ///< for each triangle of it, the number of its body
 	int paint_count;
 	const PaintName* paints; ///< one for each of the first bodies
+	PanelPoints points;      ///< none in a picture of surfaces
 	JnSurface obstacles;     ///< drawn in light grey, and without a say in the view
 } Panel;
 
@@ -50,6 +65,9 @@ typedef struct Picture {
 
 /// Copy what a frame of a recording shows into the next panel.
 JnStatus picture_add(Picture* picture, const char* folder, double t, const char* title);
+
+/// The same, with all nodes of the frame as points, such as those of peridynamic bodies.
+JnStatus picture_add_points(Picture* picture, const char* folder, double t, const char* title, const PointPaint* paint);
 
 /// Write the picture's files into `folder` and draw them. JN_IO_FAILED, JN_OUT_OF_MEMORY.
 JnStatus picture_draw(const Picture* picture, const char* folder);

@@ -41,8 +41,20 @@ static void to_axes(const View* view, const double p[3], double out[3]) {
 
 // ---- the camera ----
 
+static void bound_points(const PanelPoints* points, const View* view, double low[3], double high[3]) {
+	for (int i = 0; i < points->count; ++i) {
+		double at[3];
+		to_axes(view, points->at + 3 * (size_t)i, at);
+		for (int c = 0; c < 3; ++c) {
+			low[c] = fmin(low[c], at[c] - points->paint.radius);
+			high[c] = fmax(high[c], at[c] + points->paint.radius);
+		}
+	}
+}
+
 static void bound(const Picture* picture, const View* view, double low[3], double high[3]) {
 	for (int i = 0; i < 3; ++i) low[i] = INFINITY, high[i] = -INFINITY;
+	for (int p = 0; p < picture->count; ++p) bound_points(&picture->panels[p].points, view, low, high);
 	for (int p = 0; p < picture->count; ++p)
 		for (int i = 0; i < 3 * picture->panels[p].surface.triangle_count; ++i) {
 			const JnSurface* surface = &picture->panels[p].surface;
@@ -140,6 +152,33 @@ static void draw_bodies(Canvas* canvas, const Panel* panel, const View* view, co
 	}
 }
 
+// ---- points ----
+
+// From pale over orange to dark red.
+static Paint paint_at(const PointPaint* paint, double value) {
+	static const double colours[][3] = {{0.80, 0.84, 0.88}, {0.95, 0.66, 0.30}, {0.80, 0.16, 0.12}, {0.38, 0.02, 0.05}};
+	enum { STEPS = sizeof colours / sizeof *colours - 1 };
+	const double place = STEPS * fmax(0, fmin((value - paint->low) / (paint->high - paint->low), 1));
+	const int below = (int)fmin(place, STEPS - 1);
+	Paint out = {.gloss = 0.1};
+	for (int c = 0; c < 3; ++c)
+		out.colour[c] = colours[below][c] + (place - below) * (colours[below + 1][c] - colours[below][c]);
+	return out;
+}
+
+static void draw_points(Canvas* canvas, const PanelPoints* points, const View* view) {
+	for (int i = 0; i < points->count; ++i) {
+		Vertex vertex = {0};
+		to_axes(view, points->at + 3 * (size_t)i, vertex.at);
+		for (int c = 0; c < 3; ++c) vertex.at[c] -= view->middle[c];
+		if (vertex.at[2] > 0.8 * view->distance) continue;
+		const Corner corner = project(view, &vertex, 1);
+		const Paint paint = paint_at(&points->paint, points->values[i]);
+		const double scale = view->scale / (1 - vertex.at[2] / view->distance);
+		canvas_ball(canvas, &corner, scale * points->paint.radius, points->paint.radius, &paint);
+	}
+}
+
 // ---- obstacles ----
 
 static Fading fading_of(const View* view) {
@@ -224,6 +263,7 @@ JnStatus raster_panel(const Panel* panel, const View* view, int stride, unsigned
 		add_normals(&panel->surface, normals);
 		add_normals(&panel->obstacles, normals + 3 * points);
 		draw_bodies(&canvas, panel, view, normals);
+		draw_points(&canvas, &panel->points, view);
 		draw_obstacles(&canvas, panel, view, normals + 3 * points);
 		canvas_reduce(&canvas, stride, pixels);
 	}

@@ -1,5 +1,5 @@
 /// @file raster.h
-/// Triangles into pixels: perspective, a depth buffer, smooth shading but for sharp edges, two lights.
+/// Triangles and balls into pixels: perspective, a depth buffer, smooth shading but for sharp edges, two lights.
 #ifndef JN_APP_REPRODUCE_RASTER_H
 #define JN_APP_REPRODUCE_RASTER_H
 
