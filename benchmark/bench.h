@@ -73,6 +73,8 @@ void bench_kernels(const Bench* bench);
 /// Assembly, products and the direct solver, on whole models.
 JnStatus bench_models(const Bench* bench);
 JnStatus bench_steps(const Bench* bench);
+/// Peridynamic bonds without a matrix.
+JnStatus bench_bonds(const Bench* bench);
 /// Contact solvers on the problems that scenes make.
 JnStatus bench_contact(const Bench* bench);
 

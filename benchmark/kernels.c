@@ -1,8 +1,10 @@
 // The element kernels by themselves: every law on every element, and all vector widths for the main pair.
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "bench.h"
+#include "force/cloth/cloth.h"
 #include "force/solid.h"
 #include "mesh/shape/shape.h"
 
@@ -63,11 +65,35 @@ static JnStatus make_problem(const JnKernel* kernel, Problem* problem) {
 	return JN_OK;
 }
 
+// A strip of 512 elements of a kernel of cloth, folded and strained: node i at (i/2, i mod 2) times the edge.
+static JnStatus make_strip(JnClothKernel which, int width, Problem* problem) {
+	static const double rest[JN_CLOTH_COUNT][JN_CLOTH_MOST_REALS] = {[JN_CLOTH_spring] = {1.1, 50},
+																	 [JN_CLOTH_stretch] = {0, -1, 1, -0.5, 300, 200},
+																	 [JN_CLOTH_shear] = {0, -1, 1, -0.5, 40},
+																	 [JN_CLOTH_bend] = {0, 1, 1e-3}};
+	enum { ELEMENTS = 512, NODES = ELEMENTS + 4 };
+	const JnKernel* kernel = jn_cloth_kernel(which, width);
+	JnClothElement elements[ELEMENTS];
+	double nodes[3 * NODES];
+	for (int i = 0; i < 3 * NODES; ++i) nodes[i] = i % 3 == 0 ? 0.5 * (i / 3) : i % 3 == 1 ? i / 3 % 2 : 0;
+	for (int e = 0; e < ELEMENTS; ++e) {
+		const int hinge[4] = {e, e + 3, e + 2, e + 1}, others[4] = {e, e + 1, e + 2, 0};
+		memcpy(elements[e].nodes, which == JN_CLOTH_bend ? hinge : others, sizeof hinge);
+		memcpy(elements[e].rest, rest[which], sizeof rest[which]);
+	}
+	JN_TRY(jn_cloth_group_create(kernel, ELEMENTS, elements, &problem->arena, &problem->group));
+	JN_NEW(&problem->arena, problem->x, 3 * NODES);
+	JN_NEW(&problem->arena, problem->out, KERNEL_RUN_REALS);
+	deform(NODES, nodes, 1, problem->x);
+	return JN_OK;
+}
+
 static void measure_verb(const Bench* bench, const Problem* problem, Verb verb) {
 	const JnGroup* group = &problem->group;
 	char name[64], size[24];
-	snprintf(name, sizeof name, "%s.%s.%s", jn_shape_info[group->kernel->shape].name, group->kernel->law->row.name,
-			 verb_names[verb]);
+	snprintf(name, sizeof name, "%s.%s.%s",
+			 group->kernel->name != NULL ? "cloth" : jn_shape_info[group->kernel->shape].name,
+			 group->kernel->name != NULL ? group->kernel->name : group->kernel->law->row.name, verb_names[verb]);
 	snprintf(size, sizeof size, "%d", group->count);
 	if (!bench_wants(bench, "kernel", name, size)) return;
 	KernelRun run = {.group = group, .batches = 1, .x = problem->x, .out = problem->out, .verb = verb};
@@ -89,10 +115,19 @@ static void measure_pair(const Bench* bench, JnShape shape, const JnLaw* law, in
 	jn_arena_free(&problem.arena);
 }
 
+static void measure_cloth(const Bench* bench, JnClothKernel which, int width) {
+	Problem problem = {0};
+	if (jn_cloth_kernel(which, width) != NULL && make_strip(which, width, &problem) == JN_OK)
+		for (Verb verb = 0; verb < VERBS; verb++) measure_verb(bench, &problem, verb);
+	jn_arena_free(&problem.arena);
+}
+
 void bench_kernels(const Bench* bench) {
-	for (JnShape shape = 0; shape < JN_SHAPE_COUNT; shape++)
-		for (int i = 0; i < jn_law_list.count; i++)
+	for (JnShape shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++)
+		for (int i = 0; i < JN_SOLID_LAW_COUNT; i++)
 			measure_pair(bench, shape, (const JnLaw*)jn_law_list.rows[i], jn_kernel_best_width());
 	for (int width = jn_kernel_best_width() / 2; width >= 2; width /= 2)
 		measure_pair(bench, JN_HEX8, &jn_law_stable_neo_hookean, width);
+	for (JnClothKernel which = 0; which < JN_CLOTH_COUNT; which++)
+		for (int width = jn_kernel_best_width(); width >= 2; width /= 2) measure_cloth(bench, which, width);
 }

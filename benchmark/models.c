@@ -62,7 +62,7 @@ static void report_assembly(const Bench* bench, Subject* s, Verb verb, void (*ru
 	char name[64];
 	snprintf(name, sizeof name, "assembly.%s", verb_names[verb]);
 	if (!bench_wants(bench, "model", name, s->size)) return;
-	const JnGroup* group = &s->model->bodies[0].group;
+	const JnGroup* group = &s->model->groups[0];
 	KernelRun bare = {.group = group, .batches = group->batches, .x = s->state.x, .out = buffer, .verb = verb};
 	const double alone = measure(kernel_run, &bare, 1, 0.1, 3).median;
 	const Timing seconds = measure(run, s, s->model->threads, 0.3, 5);
@@ -139,7 +139,7 @@ static JnStatus prepare(Subject* s, int count) {
 	s->out = space->ops->create(space);
 	if (s->in == NULL || s->out == NULL) return JN_OUT_OF_MEMORY;
 	jn_model_start(s->model, 0, &s->state);
-	const double edge = cbrt(s->model->total_mass / s->model->bodies[0].group.density / count);
+	const double edge = cbrt(s->model->total_mass / s->model->bodies[0].density / count);
 	deform(s->model->node_count, s->model->rest, edge, s->state.x);
 	jn_state_touch(space, &s->state);
 	for (size_t k = 0; k < space->length; ++k) s->in[k] = 1 + 1e-3 * (double)(k % 7);
@@ -168,7 +168,7 @@ static JnStatus measure_model(const Bench* bench, const char* size, int threads)
 	JnStatus status = jn_model_create(&jn_scene_def(scene)->sim.model, threads, &s.model);
 	if (status == JN_OK) {
 		s.sys = (JnModelSystem*)jn_model_system(s.model);
-		status = prepare(&s, s.model->bodies[0].group.count);
+		status = prepare(&s, s.model->groups[0].count);
 		if (status == JN_OK) status = report_all(bench, &s);
 		JnSpace* space = s.sys->base.space;
 		jn_state_destroy(space, &s.state);

@@ -160,7 +160,7 @@ static void all_lists_are_one_json_object(void** state) {
 	(void)state;
 	Outcome outcome = RUN(0, "list", "--json");
 	file_write(path_join(folder, "list.json"), outcome.out);
-	expect_json("list.json", "len(d)==9 and all(len(rows)>0 for rows in d.values())");
+	expect_json("list.json", "len(d)==10 and all(len(rows)>0 for rows in d.values())");
 	outcome_free(&outcome);
 }
 
@@ -282,7 +282,7 @@ static void run_writes_all_its_files(void** state) {
 static void series_has_its_columns_and_a_row_a_step(void** state) {
 	(void)state;
 	static const char start[] =
-		"step,t,dt,kinetic,elastic,gravity,total,specific_error,newton,factorizations,solves,rejected";
+		"step,t,dt,kinetic,elastic,gravity,total,specific_error,newton,factorizations,solves,iterations,rejected";
 	static const char end[] = ",probe.top.x,probe.top.y,probe.top.z,probe.edge.x,probe.edge.y,probe.edge.z\n";
 	Outcome outcome = RUN(0, "run", "block.yaml", "-o", "r", "--quiet");
 	outcome_free(&outcome);

@@ -107,10 +107,30 @@ static int free_arena(void** unused) {
 	return 0;
 }
 
+/// Two balls on the line of sight, the nearer one smaller.
+static void near_points_hide_far_ones_and_have_the_colours_of_their_values(void** unused) {
+	(void)unused;
+	Pixels pixels;
+	double at[] = {0, 0, 0, 0, 0, 1, 3, 0, 0}, values[] = {0, 1, 0};
+	Picture picture = {.width = WIDTH, .height = HEIGHT, .count = 1};
+	picture.panels[0].points = (PanelPoints){3, at, values, {"damage", 0, 1, 0.4}};
+	const View view = raster_view(&picture);
+	assert_int_equal(raster_panel(&picture.panels[0], &view, WIDTH, pixels), JN_OK);
+	const int y = HEIGHT / 2, left = (int)(WIDTH / 2 - view.scale * 1.5 / CANVAS_FINER);
+	const unsigned char *front = pixels + 3 * (y * WIDTH + left), *right = pixels + 3 * (y * WIDTH + WIDTH - left);
+	print_message("near: %d %d %d, alone: %d %d %d\n", front[0], front[1], front[2], right[0], right[1], right[2]);
+	assert_true(front[0] > 2 * front[1]);                         // the dark red of the highest value
+	assert_true(abs(right[0] - right[2]) < 30 && right[0] > 100); // the pale one of the lowest
+	assert_int_equal(grey_at(pixels, WIDTH / 2, y), BACKGROUND);
+}
+
 int main(void) {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(obstacles_leave_the_view_as_it_is),   cmocka_unit_test(a_floor_is_grey_below_and_fades_above),
-		cmocka_unit_test(an_obstacle_in_front_hides_bodies),   cmocka_unit_test(a_floor_is_not_seen_from_below),
+		cmocka_unit_test(near_points_hide_far_ones_and_have_the_colours_of_their_values),
+		cmocka_unit_test(obstacles_leave_the_view_as_it_is),
+		cmocka_unit_test(a_floor_is_grey_below_and_fades_above),
+		cmocka_unit_test(an_obstacle_in_front_hides_bodies),
+		cmocka_unit_test(a_floor_is_not_seen_from_below),
 		cmocka_unit_test(a_huge_floor_looks_like_a_large_one),
 	};
 	return cmocka_run_group_tests(tests, NULL, free_arena);

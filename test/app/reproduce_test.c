@@ -56,8 +56,9 @@ static void expect_near(double value, double expected, double tolerance) {
 
 static void list_names_every_study(void** state) {
 	(void)state;
-	static const char* const names[] = {"ho-fig1 ", "ho-fig3 ", "ho-fig4 ", "ho-fig5 ",
-										"ho-fig6 ", "ho-fig7 ", "ho-fig8 ", "ho-table1 "};
+	static const char* const names[] = {"ho-fig1 ",  "ho-fig3 ",       "ho-fig4 ",   "ho-fig5 ", "ho-fig6 ",
+										"ho-fig7 ",  "ho-fig8 ",       "ho-table1 ", "ad-fig1 ", "ad-fig2 ",
+										"ad-cloth ", "adaptive-beam ", "notch "};
 	Outcome outcome = REPRODUCE(0, "list");
 	for (size_t i = 0; i < sizeof names / sizeof *names; ++i) expect_part(outcome.out, names[i]);
 	outcome_free(&outcome);

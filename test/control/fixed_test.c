@@ -14,14 +14,13 @@ static void fixed_create(FixedCase* c, double dt, int cuts, int recovery) {
 	*(double*)option(row, c->options, "dt") = dt;
 	*(int*)option(row, c->options, "cuts") = cuts;
 	*(int*)option(row, c->options, "recovery") = recovery;
-	c->controller = jn_controller_create(&(JnVariant){row, c->options});
-	assert_non_null(c->controller);
+	assert_int_equal(jn_controller_create(&(JnVariant){row, c->options}, "step", NULL, NULL, &c->controller), JN_OK);
 	c->verdict.dt = c->controller->type->first(c->controller);
 }
 
 // An attempt of the size that the last verdict asked for, or of `dt`.
 static JnStatus judge_size(FixedCase* c, JnStatus outcome, double dt) {
-	const JnStep step = {.dt = dt};
+	JnStep step = {.dt = dt, .wanted = dt};
 	return c->controller->type->judge(c->controller, &step, outcome, &c->verdict);
 }
 

@@ -67,9 +67,9 @@ static void rest_sample(Sample* s, JnShape shape, const JnLaw* law) {
 static void all_laws_have_the_stiffness_of_hooke_at_rest(void** unused) {
 	(void)unused;
 	static SampleMatrix hooke[SAMPLE_ELEMENTS], K[SAMPLE_ELEMENTS];
-	for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 		Sample s;
-		for (int row = 0; row < jn_law_list.count; row++) {
+		for (int row = 0; row < JN_SOLID_LAW_COUNT; row++) {
 			rest_sample(&s, shape, (const JnLaw*)jn_law_list.rows[row]);
 			sample_tangent(&s, false, row == 0 ? hooke : K);
 			for (int k = 0; k < s.reals * s.reals && row > 0; k++) {
@@ -85,8 +85,8 @@ static void all_laws_have_the_stiffness_of_hooke_at_rest(void** unused) {
 
 static void all_laws_have_no_energy_and_no_force_at_rest(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
-		for (int row = 0; row < jn_law_list.count; row++) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
+		for (int row = 0; row < JN_SOLID_LAW_COUNT; row++) {
 			Sample s;
 			rest_sample(&s, shape, (const JnLaw*)jn_law_list.rows[row]);
 			double energy[SAMPLE_ELEMENTS], force[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS];
@@ -102,7 +102,7 @@ static void all_laws_have_no_energy_and_no_force_at_rest(void** unused) {
 
 static void neo_hookean_energy_is_infinite_when_inverted(void** unused) {
 	(void)unused;
-	for (int row = 0; row < jn_law_list.count; row++) {
+	for (int row = 0; row < JN_SOLID_LAW_COUNT; row++) {
 		const JnLaw* law = (const JnLaw*)jn_law_list.rows[row];
 		if (is_defined(law, INVERTED)) continue;
 		Sample s = sample_create(JN_TET4, law, 0, INVERTED, 3);

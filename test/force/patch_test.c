@@ -78,8 +78,8 @@ static void check_patch(const JnKernel* kernel) {
 
 static void affine_displacements_have_uniform_energy_and_no_interior_force(void** unused) {
 	(void)unused;
-	for (int row = 0; row < jn_law_list.count; row++) {
-		for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+	for (int row = 0; row < JN_SOLID_LAW_COUNT; row++) {
+		for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 			check_patch(jn_kernel_find(shape, (const JnLaw*)jn_law_list.rows[row], 0));
 		}
 	}
@@ -102,7 +102,7 @@ static double mass_product(const JnMesh* mesh, int p, int q) {
 
 static void masses_integrate_what_the_elements_can_represent(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 		JnArena arena = {0};
 		JnMesh mesh;
 		distorted_box(shape, &arena, &mesh);
@@ -119,7 +119,7 @@ static void masses_integrate_what_the_elements_can_represent(void** unused) {
 
 static void cell_masses_sum_to_density_times_volume(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 		JnArena arena = {0};
 		JnMesh mesh;
 		distorted_box(shape, &arena, &mesh);
@@ -147,7 +147,7 @@ static void keep_message(void* user, JnLogLevel level, const char* message) {
 
 static void a_group_names_the_first_cell_that_is_inside_out(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 		JnArena arena = {0};
 		JnMesh mesh;
 		JnGroup group;

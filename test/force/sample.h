@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "force/kernel.h"
+#include "force/solid.h"
 
 enum { SAMPLE_ELEMENTS = 5, SAMPLE_MOST_REALS = 30 };
 
@@ -176,9 +177,9 @@ static inline bool is_defined(const JnLaw* law, State state) {
 
 /// Run a check for every law, element, width of this processor and state.
 static inline void for_all_samples(SampleCheck* check) {
-	for (int row = 0; row < jn_law_list.count; row++) {
+	for (int row = 0; row < JN_SOLID_LAW_COUNT; row++) {
 		const JnLaw* law = (const JnLaw*)jn_law_list.rows[row];
-		for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+		for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 			for (int width = 2; width <= 8; width *= 2) {
 				if (jn_kernel_find(shape, law, width) == NULL) continue;
 				for (int state = 0; state < STATE_COUNT; state++) {

@@ -48,7 +48,7 @@ static void expect_closed(const JnSurface* surface) {
 
 static void boundaries_are_closed(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape) {
 		JnArena arena = {0};
 		const JnMesh mesh = make(shape, &arena);
 		const JnSurface surface = boundary_of(&mesh, &arena);
@@ -59,8 +59,8 @@ static void boundaries_are_closed(void** unused) {
 
 static void a_boundary_has_the_triangles_of_its_faces(void** unused) {
 	(void)unused;
-	static const int triangles_a_square[JN_SHAPE_COUNT] = {[JN_TET4] = 2, [JN_TET10] = 8, [JN_HEX8] = 2};
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape) {
+	static const int triangles_a_square[JN_SOLID_SHAPE_COUNT] = {[JN_TET4] = 2, [JN_TET10] = 8, [JN_HEX8] = 2};
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape) {
 		JnArena arena = {0};
 		const JnMesh mesh = make(shape, &arena);
 		const JnSurface surface = boundary_of(&mesh, &arena);
@@ -72,7 +72,7 @@ static void a_boundary_has_the_triangles_of_its_faces(void** unused) {
 /// Moved nodes keep straight edges for tet4 only in general; an affine map does for all: x += 0.3 y - 0.2 z and so on.
 static void a_boundary_holds_the_volume_of_the_cells(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape) {
 		JnArena arena = {0};
 		const JnMesh mesh = make(shape, &arena);
 		const JnSurface surface = boundary_of(&mesh, &arena);
@@ -104,8 +104,8 @@ static void bent_tetrahedra_keep_volume_and_boundary_equal(void** unused) {
 
 static void one_cell_is_all_boundary(void** unused) {
 	(void)unused;
-	static const int triangles[JN_SHAPE_COUNT] = {[JN_TET4] = 4, [JN_TET10] = 16, [JN_HEX8] = 12};
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape) {
+	static const int triangles[JN_SOLID_SHAPE_COUNT] = {[JN_TET4] = 4, [JN_TET10] = 16, [JN_HEX8] = 12};
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape) {
 		JnArena arena = {0};
 		JnMesh mesh = make(shape, &arena);
 		mesh.cell_count = 1;

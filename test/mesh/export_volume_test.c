@@ -51,7 +51,7 @@ static void expect_same(const JnMesh* mesh, const JnMesh* expected) {
 }
 
 static void a_round_trip_keeps_every_bit(void** state) {
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape)
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape)
 		for (int i = 0; i < 2; ++i) {
 			JnArena arena = {0};
 			JnNodeSet sets[3];
@@ -97,7 +97,7 @@ static void meshio_reads_the_same_mesh(void** state) {
 		"print(len(points), len(flat), int((flat * np.arange(1, len(flat) + 1)).sum()), float(points[-1]).hex(),"
 		" float(points[4]).hex(), file=open(sys.argv[2], 'w'))\n";
 	file_write(path_join(*state, "read.py"), script);
-	for (int k = 0; k < 2 * JN_SHAPE_COUNT; ++k) {
+	for (int k = 0; k < 2 * JN_SOLID_SHAPE_COUNT; ++k) {
 		JnArena arena = {0};
 		JnNodeSet sets[3];
 		char command[4096];

@@ -14,13 +14,13 @@
 #include "mesh/shape/shape.h"
 #include "support/support.h"
 
-static const char* const shape_names[JN_SHAPE_COUNT] = {"tet4", "tet10", "hex8"};
+static const char* const shape_names[JN_SOLID_SHAPE_COUNT] = {"tet4", "tet10", "hex8"};
 
 /// What all tests share: a folder of files, and the meshes that they hold.
 typedef struct Files {
 	char folder[256];
 	JnArena arena;
-	JnMesh meshes[JN_SHAPE_COUNT];
+	JnMesh meshes[JN_SOLID_SHAPE_COUNT];
 	bool have_python;
 } Files;
 
@@ -44,7 +44,7 @@ static int set_up(void** state) {
 	static Files files;
 	char command[1024];
 	if (folder_create(files.folder) != 0) return -1;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape) {
 		// eighths: exact in a float and in eleven digits of text
 		const JnBoxDef def = {.origin = {1, -2, 0.5}, .size = {1, 0.5, 1.5}, .cells = {2, 1, 3}, .element = shape};
 		if (jn_generate_box(&def, &files.arena, &files.meshes[shape]) != JN_OK) return -1;
@@ -107,7 +107,7 @@ static void check_good(const Files* files, const char* name) {
 static void every_coding_of_every_shape_is_read_bit_by_bit(void** state) {
 	const Files* files = *state;
 	if (!files->have_python) skip();
-	assert_int_equal(for_each(files, "good_", check_good), 19 * JN_SHAPE_COUNT);
+	assert_int_equal(for_each(files, "good_", check_good), 19 * JN_SOLID_SHAPE_COUNT);
 }
 
 /// The nodes with the lowest y are marked by an array "set:low" in the files written by hand.

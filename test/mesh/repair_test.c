@@ -33,7 +33,7 @@ static void expect_refusal(JnMesh* mesh, JnArena* arena, const char* words) {
 
 static void a_good_mesh_stays_as_it_is(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape) {
 		JnArena arena = {0};
 		const JnMesh before = make(shape, &arena);
 		JnMesh mesh = make(shape, &arena);
@@ -51,7 +51,7 @@ static void a_good_mesh_stays_as_it_is(void** unused) {
 static void cells_inside_out_are_turned(void** unused) {
 	(void)unused;
 	static const int edges[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape) {
 		JnArena arena = {0};
 		JnMesh mesh = make(shape, &arena);
 		for (int i = 0; i < mesh.node_count; ++i) mesh.nodes[3 * i] *= -1;
@@ -119,7 +119,7 @@ static void the_first_offenders_are_named(void** unused) {
 
 static void a_node_twice_in_a_cell_is_refused(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape) {
 		JnArena arena = {0};
 		JnMesh mesh = make(shape, &arena);
 		const int nodes = jn_shape_info[shape].nodes;
@@ -154,7 +154,7 @@ static void nodes_at_one_place_are_refused(void** unused) {
 
 static void cells_without_volume_are_refused(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; ++shape) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; ++shape) {
 		JnArena arena = {0};
 		JnMesh mesh = make(shape, &arena);
 		for (int i = 0; i < mesh.node_count; ++i) {

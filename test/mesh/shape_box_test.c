@@ -23,9 +23,9 @@ static JnMesh make(JnShape shape, JnArena* arena) {
 
 static void a_box_has_the_nodes_and_cells_of_its_grid(void** unused) {
 	(void)unused;
-	static const int node_count[JN_SHAPE_COUNT] = {4 * 3 * 5, 7 * 5 * 9, 4 * 3 * 5};
-	static const int cell_count[JN_SHAPE_COUNT] = {6 * 24, 6 * 24, 24};
-	for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+	static const int node_count[JN_SOLID_SHAPE_COUNT] = {4 * 3 * 5, 7 * 5 * 9, 4 * 3 * 5};
+	static const int cell_count[JN_SOLID_SHAPE_COUNT] = {6 * 24, 6 * 24, 24};
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 		JnArena arena = {0};
 		const JnMesh mesh = make(shape, &arena);
 		assert_int_equal(mesh.node_count, node_count[shape]);
@@ -39,7 +39,7 @@ static void a_box_has_the_nodes_and_cells_of_its_grid(void** unused) {
 
 static void cells_are_positive_and_fill_the_box(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 		JnArena arena = {0};
 		const JnMesh mesh = make(shape, &arena);
 		const double share = 0.25 / mesh.cell_count;
@@ -77,7 +77,7 @@ static bool on_boundary(const JnMesh* mesh, const Face* face, int count) {
 
 static void interior_faces_belong_to_two_cells_and_outer_faces_to_one(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 		const JnShapeInfo* info = &jn_shape_info[shape];
 		JnArena arena = {0};
 		const JnMesh mesh = make(shape, &arena);
@@ -100,7 +100,7 @@ static void interior_faces_belong_to_two_cells_and_outer_faces_to_one(void** unu
 
 static void faces_look_outward(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 		const JnShapeInfo* info = &jn_shape_info[shape];
 		JnArena arena = {0};
 		const JnMesh mesh = make(shape, &arena);
@@ -140,7 +140,7 @@ static void tet10_nodes_stand_in_the_middle_of_their_edges(void** unused) {
 
 static void volume_of_an_inverted_cell_is_negative(void** unused) {
 	(void)unused;
-	for (int shape = 0; shape < JN_SHAPE_COUNT; shape++) {
+	for (int shape = 0; shape < JN_SOLID_SHAPE_COUNT; shape++) {
 		JnArena arena = {0};
 		const JnMesh mesh = make(shape, &arena);
 		for (int i = 0; i < mesh.node_count; i++) mesh.nodes[3 * i] *= -1;

@@ -19,7 +19,8 @@ static const char* const shapes[] = {
 	"type: jello, flutes: 12, flute_depth: 0.05, cells: [60, 5, 10], rounding: 0.5",
 };
 enum { SHAPES = sizeof shapes / sizeof *shapes };
-static const char* const elements[JN_SHAPE_COUNT] = {[JN_TET4] = "tet4", [JN_TET10] = "tet10", [JN_HEX8] = "hex8"};
+static const char* const elements[JN_SOLID_SHAPE_COUNT] = {
+	[JN_TET4] = "tet4", [JN_TET10] = "tet10", [JN_HEX8] = "hex8"};
 
 static void make(ShapeCase* c, int shape, int element) {
 	char text[512];
@@ -30,10 +31,10 @@ static void make(ShapeCase* c, int shape, int element) {
 
 /// Do `check` for every shape and element.
 static void for_all(void (*check)(const ShapeCase*, const char* name)) {
-	for (int k = 0; k < SHAPES * JN_SHAPE_COUNT; ++k) {
+	for (int k = 0; k < SHAPES * JN_SOLID_SHAPE_COUNT; ++k) {
 		ShapeCase c;
-		make(&c, k / JN_SHAPE_COUNT, k % JN_SHAPE_COUNT);
-		check(&c, shapes[k / JN_SHAPE_COUNT]);
+		make(&c, k / JN_SOLID_SHAPE_COUNT, k % JN_SOLID_SHAPE_COUNT);
+		check(&c, shapes[k / JN_SOLID_SHAPE_COUNT]);
 		shape_free(&c);
 	}
 }
@@ -119,7 +120,7 @@ static void expect_volume(const char* text, double expected, double tolerance) {
 static void flat_sided_shapes_have_their_exact_volume(void** state) {
 	(void)state;
 	const double rounding = 1e-13; // of hundreds of sums
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element) {
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element) {
 		char text[256];
 		snprintf(text, sizeof text, "{type: sheet, size: [1, 2], thickness: 1/96, cells: [5, 7], element: %s}",
 				 elements[element]);

@@ -13,7 +13,7 @@ static void free_box(ModelCase* c, int element, int mass) {
 
 static void total_mass_is_density_times_volume(void** state) {
 	(void)state;
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element)
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element)
 		for (int mass = CONSISTENT; mass <= LUMPED; ++mass) {
 			ModelCase c;
 			Rig rig;
@@ -27,7 +27,7 @@ static void total_mass_is_density_times_volume(void** state) {
 
 static void a_translating_body_has_the_kinetic_energy_of_a_point(void** state) {
 	(void)state;
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element)
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element)
 		for (int mass = CONSISTENT; mass <= LUMPED; ++mass) {
 			ModelCase c;
 			Rig rig;
@@ -47,7 +47,7 @@ static void a_translating_body_has_the_kinetic_energy_of_a_point(void** state) {
 // Consistent mass integrates the velocity field exactly: rotation has the energy of the box's moment of inertia.
 static void a_turning_body_has_its_moment_of_inertia(void** state) {
 	(void)state;
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element) {
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element) {
 		ModelCase c;
 		Rig rig;
 		free_box(&c, element, CONSISTENT);
@@ -85,7 +85,7 @@ static void lumped_masses_equal_row_sums_of_the_consistent_ones(void** state) {
 
 static void lumped_masses_are_positive_and_diagonal(void** state) {
 	(void)state;
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element) {
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element) {
 		ModelCase c;
 		Rig rig;
 		free_box(&c, element, LUMPED);

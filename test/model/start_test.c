@@ -17,7 +17,7 @@ static void turning_case(ModelCase* c, int element, int mass) {
 // of a rotation is linear in X.
 static void a_spinning_box_has_the_momenta_of_a_rigid_body(void** state) {
 	(void)state;
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element) {
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element) {
 		ModelCase c;
 		Rig rig;
 		turning_case(&c, element, 0);

@@ -60,7 +60,7 @@ static void check_force_of(int element, const char* law) {
 
 static void force_is_minus_the_slope_of_the_energy(void** state) {
 	(void)state;
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element)
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element)
 		for (int i = 0; i < LAW_COUNT; ++i) check_force_of(element, laws[i]);
 }
 
@@ -113,7 +113,7 @@ static void check_products_of(int element, const char* law) {
 
 static void products_with_K_and_D_are_differences_of_the_force(void** state) {
 	(void)state;
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element)
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element)
 		for (int i = 0; i < LAW_COUNT; ++i) check_products_of(element, laws[i]);
 }
 
@@ -178,7 +178,7 @@ static void check_inverse(const ModelCase* c, JnShift shift, const char* what) {
 
 static void solve_inverts_apply_on_free_entries_and_zeroes_the_held(void** state) {
 	(void)state;
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element)
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element)
 		for (int mass = 0; mass < 2; ++mass) {
 			ModelCase c;
 			troubled_case(&c, element, "stable_neo_hookean");

@@ -34,7 +34,7 @@ static void free_vector(const Rig* rig, double* vector) {
 
 static void a_box_at_rest_feels_pressure_before_and_suction_behind(void** state) {
 	(void)state;
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element) {
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element) {
 		WindCase c;
 		Rig rig;
 		windy_case(&c, element);
@@ -166,7 +166,7 @@ static void expect_products(Rig* rig, const char* what) {
 
 static void products_with_the_exact_tangent_are_differences_of_the_force(void** state) {
 	(void)state;
-	for (int element = 0; element < JN_SHAPE_COUNT; ++element) {
+	for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element) {
 		WindCase c;
 		Rig rig;
 		windy_case(&c, element);

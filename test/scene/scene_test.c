@@ -229,7 +229,27 @@ static void scene_without_bodies_is_refused(void** state) {
 	(void)state;
 	file_write(path_join(folder, "scene.yaml"), "duration: 1 s\nbodies: []\n");
 	assert_int_equal(load_and_build(path_join(folder, "scene.yaml"), 0, NULL), JN_BAD_INPUT);
-	expect_message("2:1", "bodies: there are none; a scene needs at least one");
+	expect_message("2:1", "bodies: there are none, and no system in their place");
+}
+
+static void bodies_beside_a_system_are_refused(void** state) {
+	(void)state;
+	const char* const sets[] = {"system=spring_1d", "probes=[]"};
+	assert_int_equal(load_and_build(write_scene(0, NULL), 2, sets), JN_BAD_INPUT);
+	assert_non_null(strstr(log_text(), "bodies: stand beside 'system: spring_1d'"));
+}
+
+static void a_system_needs_no_bodies(void** state) {
+	(void)state;
+	file_write(path_join(folder, "scene.yaml"), "duration: 1 s\nsystem: {type: spring_1d, mass: 2 kg}\n");
+	assert_int_equal(load_and_build(path_join(folder, "scene.yaml"), 0, NULL), JN_OK);
+}
+
+static void a_system_has_no_contact(void** state) {
+	(void)state;
+	file_write(path_join(folder, "scene.yaml"), "duration: 1 s\nsystem: spring_1d\ncontact: {}\n");
+	assert_int_equal(load_and_build(path_join(folder, "scene.yaml"), 0, NULL), JN_BAD_INPUT);
+	expect_message("3:1", "contact: stands beside 'system: spring_1d'");
 }
 
 static void override_is_named_in_place_of_the_file(void** state) {
@@ -287,6 +307,9 @@ int main(void) {
 		TEST(very_long_name_is_refused),
 		TEST(missing_duration_is_named),
 		TEST(scene_without_bodies_is_refused),
+		TEST(bodies_beside_a_system_are_refused),
+		TEST(a_system_needs_no_bodies),
+		TEST(a_system_has_no_contact),
 		TEST(override_is_named_in_place_of_the_file),
 		TEST(override_without_value_is_refused),
 		TEST(scene_without_name_is_called_after_its_file),

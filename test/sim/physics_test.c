@@ -73,7 +73,7 @@ static void a_body_at_rest_stays_at_rest(void** state) {
 	(void)state;
 	const char* const laws[] = {"linear", "neo_hookean", "stable_neo_hookean", "corotated_frozen", "corotated"};
 	for (int law = 0; law < 5; ++law)
-		for (int element = 0; element < JN_SHAPE_COUNT; ++element) {
+		for (int element = 0; element < JN_SOLID_SHAPE_COUNT; ++element) {
 			ModelCase c;
 			Rig rig;
 			case_box(&c, element, laws[law]);

@@ -50,7 +50,8 @@ static void dense_solve(const double* matrix, const bool* held, const double* rh
 
 static JnSolver* new_solver(const RandomCells* r, const bool* held, int ordering) {
 	JnSolver* solver = NULL;
-	assert_int_equal(jn_solver_direct.create(&(JnDirectDef){.ordering = ordering}, &r->pattern, held, &solver), JN_OK);
+	assert_int_equal(jn_solver_direct.create(&(JnDirectDef){.ordering = ordering}, &r->pattern, held, 1, &solver),
+					 JN_OK);
 	return solver;
 }
 

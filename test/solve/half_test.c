@@ -90,7 +90,7 @@ static void halves_drop_what_is_held(void** state) {
 		cells_create(&r, NODES, CELLS, seed);
 		cells_shift(&r, 120); // dominant: no row has more than 59 neighbours of 3 entries, and few have a third as many
 		JnSolver* solver = NULL;
-		assert_int_equal(jn_solver_direct.create(&(JnDirectDef){0}, &r.pattern, held, &solver), JN_OK);
+		assert_int_equal(jn_solver_direct.create(&(JnDirectDef){0}, &r.pattern, held, 1, &solver), JN_OK);
 		assert_int_equal(jn_solver_direct.factor(solver, 0, r.blocks), JN_OK);
 		expect_products(solver, 3 * NODES, &half, "random cells");
 		jn_solver_direct.destroy(solver);

@@ -87,12 +87,12 @@ static inline void qp_case_finish(QpCase* c, int bodies) {
 		.friction = c->friction,
 	};
 	const JnDirectDef options = {.precision = 1};
-	assert_int_equal(jn_solver_direct.create(&options, &c->pattern, c->held, &c->solver), JN_OK);
+	assert_int_equal(jn_solver_direct.create(&options, &c->pattern, c->held, 1, &c->solver), JN_OK);
 	QP_TAKE(c, halves, bodies);
 	for (int b = 0; b < bodies; ++b) {
 		const JnPattern* one = bodies == 1 ? &c->pattern : &c->body_pattern;
 		const bool* held = c->held + 3 * c->first_node[b];
-		assert_int_equal(jn_solver_direct.create(&options, one, held, &c->halves[b]), JN_OK);
+		assert_int_equal(jn_solver_direct.create(&options, one, held, 1, &c->halves[b]), JN_OK);
 	}
 	qp_case_factor(c);
 }

@@ -78,7 +78,7 @@ static void expect_inverse(JnSolver* solver, int slot, const FullMatrix* m, cons
 
 static JnSolver* new_solver(const FullMatrix* m, const bool* held) {
 	JnSolver* solver = NULL;
-	assert_int_equal(jn_solver_unsymmetric.create(NULL, &m->cells.pattern, held, &solver), JN_OK);
+	assert_int_equal(jn_solver_unsymmetric.create(NULL, &m->cells.pattern, held, 1, &solver), JN_OK);
 	return solver;
 }
 

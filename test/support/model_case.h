@@ -32,8 +32,8 @@ typedef struct ModelCase {
 	JnDirectDef direct;
 	JnFixDef fix[2];
 	JnDriveDef drive;
-	double motion[8], control[8]; ///< options of the motion and of the controller, by their keys
-	double method[32];            ///< options of the integrator
+	double motion[8], control[16]; ///< options of the motion and of the controller, by their keys
+	double method[32];             ///< options of the integrator
 	JnBodyDef body;
 	JnSimDef sim;
 } ModelCase;

@@ -95,9 +95,9 @@ static inline JnStatus point_matrix(JnSystem* sys, JnShift shift, JnMatrix** out
 	return JN_BAD_INPUT;
 }
 
-static inline double point_max_step(JnSystem* sys, const JnState* from, const JnState* to) {
+static inline double point_stretch(JnSystem* sys, const JnState* from, const JnState* to) {
 	(void)sys, (void)from, (void)to;
-	return 1;
+	return 0;
 }
 
 /// `point` must stay where it is. Free with point_destroy.
@@ -109,7 +109,7 @@ static inline void point_create(PointSystem* point, double (*force)(double), dou
 									.energy = point_energy,
 									.linearize = point_linearize,
 									.matrix = point_matrix,
-									.max_step = point_max_step};
+									.stretch = point_stretch};
 	*point = (PointSystem){.base = {.ops = &ops, .space = jn_host_space_create(POINT_LENGTH, 1), .force_scale = 1},
 						   .force = force,
 						   .stiffness = stiffness};

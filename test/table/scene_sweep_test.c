@@ -82,10 +82,10 @@ static void coarsen_box(const JnBoxDef* box, int index, Sets* sets) {
 // Of the other generated shapes, the coarsest meshes that show what they are.
 static void coarsen(const JnBodyDef* body, int index, Sets* sets) {
 	static const char* const coarse[][2] = {
-		{"sheet", "cells=[6, 6]"},    {"ball", "cells=2"},          {"cylinder", "cells=[8, 1, 4]"},
-		{"torus", "cells=[8, 1, 8]"}, {"rope", "cells=[4, 1, 10]"}, {"jello", "cells=[32, 1, 2]"},
-		{"duck", "mesh=voxels"},      {"duck", "cell=6 cm"},        {"beach_ball", "mesh=voxels"},
-		{"beach_ball", "cell=5 cm"},
+		{"sheet", "cells=[6, 6]"},       {"cloth", "cells=[6, 6]"},    {"ball", "cells=2"},
+		{"cylinder", "cells=[8, 1, 4]"}, {"torus", "cells=[8, 1, 8]"}, {"rope", "cells=[4, 1, 10]"},
+		{"jello", "cells=[32, 1, 2]"},   {"duck", "mesh=voxels"},      {"duck", "cell=6 cm"},
+		{"beach_ball", "mesh=voxels"},   {"beach_ball", "cell=5 cm"},  {"points_box", "spacing=5 mm"},
 	};
 	const char* shape = body->shape.row->name;
 	if (strcmp(shape, "box") == 0) coarsen_box(body->shape.options, index, sets);
@@ -109,7 +109,7 @@ static void make_plan(const char* path, Plan* plan) {
 }
 
 static void expect_finite(const JnSim* sim, const char* path, const char* method) {
-	const int length = 3 * jn_model_node_count(jn_sim_model((JnSim*)sim));
+	const int length = (int)jn_sim_system((JnSim*)sim)->space->length;
 	const JnState* state = jn_sim_state(sim);
 	for (int k = 0; k < length; ++k)
 		if (!isfinite(state->x[k]) || !isfinite(state->v[k]))
@@ -150,8 +150,8 @@ static bool steps_to_the_end(const char* path, const char* method, const Sets* s
 static void choose(const Plan* plan, const char* method, double dt, Sets* sets) {
 	*sets = plan->coarse;
 	for (int i = 0; i < sets->count; ++i) sets->list[i] = sets->text[i];
-	add_set(sets, "integrator.method=%s", method);
-	add_set(sets, "step.dt=%.17g s", dt);
+	add_set(sets, "integrator={method: %s}", method);
+	add_set(sets, "step={dt: %.17g s}", dt); // fixed: not every controller serves every method
 	add_set(sets, "duration=%.17g s", STEPS * dt);
 }
 
@@ -190,7 +190,9 @@ static void every_method_steps_every_scene_or_says_what_to_set(void** state) {
 	glob_t found;
 	assert_int_equal(glob(JN_SOURCE_DIR "/scenes/*.yaml", 0, NULL, &found), 0);
 	assert_true(found.gl_pathc >= 2);
-	for (size_t i = 0; i < found.gl_pathc; ++i) sweep(found.gl_pathv[i]);
+	for (size_t i = 0; i < found.gl_pathc; ++i)
+		if (strstr(found.gl_pathv[i], "_large.yaml") == NULL)
+			sweep(found.gl_pathv[i]); // those are others, with more points
 	globfree(&found);
 }
 
