@@ -12,12 +12,6 @@
 #include "force/cloth/sheet.h"
 #include "math/vec3.h"
 
-typedef struct SpringsDef {
-	JnClothDef cloth;
-	double stretch[2], shear, bend[2];
-	double stretch_damping, shear_damping, bend_damping;
-} SpringsDef;
-
 static const double STRAIGHT = 0.97; // squared cosine of 10 degrees: edges that follow a thread; threads that go on
 
 /// 0 along u, 1 along v, 2 neither.
@@ -31,7 +25,7 @@ static JnClothElement spring_between(const JnSheet* sheet, int a, int b, double 
 	return (JnClothElement){.nodes = {a, b}, .rest = {length, stiffness * area / (length * length)}};
 }
 
-static int list_structural(const JnSheet* sheet, const SpringsDef* def, JnClothElement* out) {
+static int list_structural(const JnSheet* sheet, const JnClothDef* def, JnClothElement* out) {
 	int count = 0;
 	for (int i = 0; i < sheet->edge_count; ++i) {
 		const JnSheetEdge* edge = &sheet->edges[i];
@@ -42,7 +36,7 @@ static int list_structural(const JnSheet* sheet, const SpringsDef* def, JnClothE
 	return count;
 }
 
-static int list_shear(const JnSheet* sheet, const SpringsDef* def, JnClothElement* out) {
+static int list_shear(const JnSheet* sheet, const JnClothDef* def, JnClothElement* out) {
 	int count = 0;
 	for (int i = 0; i < sheet->edge_count; ++i) {
 		const JnSheetEdge* edge = &sheet->edges[i];
@@ -84,7 +78,7 @@ static bool goes_on(const JnSheet* sheet, int node, const JnSheetEdge* first, co
 	return product < -0.9 * first->length * second->length;
 }
 
-static int list_bend(const JnSheet* sheet, const SpringsDef* def, const Fans* fans, JnClothElement* out) {
+static int list_bend(const JnSheet* sheet, const JnClothDef* def, const Fans* fans, JnClothElement* out) {
 	int count = 0;
 	for (int node = 0; node < sheet->mesh->node_count; ++node)
 		for (int i = fans->start[node]; i < fans->start[node + 1]; ++i)
@@ -109,7 +103,7 @@ static JnStatus add_group(int count, JnClothElement* elements, int first_node, d
 	return JN_OK;
 }
 
-static JnStatus fill(const SpringsDef* def, const JnSheet* sheet, int first_node, JnArena* scratch, JnArena* arena,
+static JnStatus fill(const JnClothDef* def, const JnSheet* sheet, int first_node, JnArena* scratch, JnArena* arena,
 					 JnGroups* out) {
 	Fans fans;
 	JnClothElement* list;
@@ -130,42 +124,16 @@ static JnStatus fill(const SpringsDef* def, const JnSheet* sheet, int first_node
 
 static JnStatus build(const JnLaw* law, const void* options, const JnMesh* mesh, int first_node, const char* what,
 					  JnArena* arena, JnGroups* out) {
-	const SpringsDef* def = options;
-	JnArena scratch = {0};
-	JnSheet sheet;
-	*out = (JnGroups){.density = def->cloth.density};
-	JN_NEW(arena, out->list, 3);
-	JnStatus status = jn_sheet_create(law, &def->cloth, mesh, what, &scratch, &sheet);
-	if (status == JN_OK) status = fill(def, &sheet, first_node, &scratch, arena, out);
-	jn_arena_free(&scratch);
-	return status;
+	return jn_cloth_build(fill, law, options, mesh, first_node, what, arena, out);
 }
 
-#define NUMBER(kind_of, field_of, unit_of, ...)                                                                        \
-	JN_CLOTH_NUMBER(SpringsDef, kind_of, #field_of, field_of, unit_of, __VA_ARGS__)
-
-static const JnKey keys[] = {
-	JN_CLOTH_KEYS(SpringsDef, cloth.),
-	{.name = "stretch",
-	 .kind = JN_REAL2,
-	 .field = offsetof(SpringsDef, stretch),
-	 .high = INFINITY,
-	 .open = JN_OPEN_LOW | JN_OPEN_HIGH,
-	 .required = true,
-	 .unit = "N/m",
-	 .meaning = "stiffness of the structural springs along u and v: force a width for a strain of 1"},
-	NUMBER(JN_REAL, shear, "N/m", .required = true, .meaning = "stiffness against shear, by the springs of diagonals"),
-	NUMBER(JN_REAL2, bend, "N/m", .required = true,
-		   .meaning = "stiffness of the springs between nodes two apart along u and v"),
-	NUMBER(JN_REAL, stretch_damping, "s", .meaning = "stiffness-proportional damping of structural springs"),
-	NUMBER(JN_REAL, shear_damping, "s", .meaning = "of shear springs"),
-	NUMBER(JN_REAL, bend_damping, "s", .meaning = "of bend springs"),
-	{0},
-};
+static const JnKey keys[] = {JN_CLOTH_KEYS("stiffness of the structural springs along u and v",
+										   "stiffness against shear, by the springs of diagonals", "N/m",
+										   "stiffness of the springs between nodes two apart along u and v")};
 
 const JnLaw jn_law_mass_spring = {
 	.row = {"mass_spring",
 			"Cloth as springs (Provot 1995): structural, shear and bend ones, each with a damping of its own.", keys,
-			sizeof(SpringsDef)},
+			sizeof(JnClothDef)},
 	.build = build,
 };

@@ -14,12 +14,6 @@
 #include "force/cloth/sheet.h"
 #include "math/vec3.h"
 
-typedef struct MembraneDef {
-	JnClothDef cloth;
-	double stretch[2], shear, bend[2];
-	double stretch_damping, shear_damping, bend_damping;
-} MembraneDef;
-
 // B of stretch.h: the inverse of the edges from node 2 in the frame u, v.
 static void invert_edges(const JnSheet* sheet, int cell, double B[4]) {
 	const int* nodes = sheet->mesh->cells + 3 * (ptrdiff_t)cell;
@@ -89,7 +83,7 @@ static JnStatus build_hinges(const JnSheet* sheet, const double bend[2], int fir
 	return jn_cloth_group_create(jn_cloth_kernel(JN_CLOTH_bend, 0), count, elements, arena, group);
 }
 
-static JnStatus fill(const MembraneDef* def, const JnSheet* sheet, int first_node, JnArena* scratch, JnArena* arena,
+static JnStatus fill(const JnClothDef* def, const JnSheet* sheet, int first_node, JnArena* scratch, JnArena* arena,
 					 JnGroups* out) {
 	JnGroup* group = out->list;
 	JN_TRY(build_triangles(sheet, JN_CLOTH_stretch, def->stretch, first_node, scratch, arena, group));
@@ -108,43 +102,17 @@ static JnStatus fill(const MembraneDef* def, const JnSheet* sheet, int first_nod
 
 static JnStatus build(const JnLaw* law, const void* options, const JnMesh* mesh, int first_node, const char* what,
 					  JnArena* arena, JnGroups* out) {
-	const MembraneDef* def = options;
-	JnArena scratch = {0};
-	JnSheet sheet;
-	*out = (JnGroups){.density = def->cloth.density};
-	JN_NEW(arena, out->list, 3);
-	JnStatus status = jn_sheet_create(law, &def->cloth, mesh, what, &scratch, &sheet);
-	if (status == JN_OK) status = fill(def, &sheet, first_node, &scratch, arena, out);
-	jn_arena_free(&scratch);
-	return status;
+	return jn_cloth_build(fill, law, options, mesh, first_node, what, arena, out);
 }
 
-#define NUMBER(kind_of, field_of, unit_of, ...)                                                                        \
-	JN_CLOTH_NUMBER(MembraneDef, kind_of, #field_of, field_of, unit_of, __VA_ARGS__)
-
 static const JnKey keys[] = {
-	JN_CLOTH_KEYS(MembraneDef, cloth.),
-	{.name = "stretch",
-	 .kind = JN_REAL2,
-	 .field = offsetof(MembraneDef, stretch),
-	 .high = INFINITY,
-	 .open = JN_OPEN_LOW | JN_OPEN_HIGH,
-	 .required = true,
-	 .unit = "N/m",
-	 .meaning = "stiffness under tension along the threads u and v: force a width for a strain of 1"},
-	NUMBER(JN_REAL, shear, "N/m", .required = true, .meaning = "stiffness against shear between the threads"),
-	NUMBER(JN_REAL2, bend, "N m", .required = true,
-		   .meaning = "bending stiffness of the threads u and v: moment a width for a curvature of 1/m"),
-	NUMBER(JN_REAL, stretch_damping, "s", .meaning = "stiffness-proportional damping of stretch"),
-	NUMBER(JN_REAL, shear_damping, "s", .meaning = "of shear"),
-	NUMBER(JN_REAL, bend_damping, "s", .meaning = "of bending"),
-	{0},
-};
+	JN_CLOTH_KEYS("stiffness under tension along the threads u and v", "stiffness against shear between the threads",
+				  "N m", "bending stiffness of the threads u and v: moment a width for a curvature of 1/m")};
 
 const JnLaw jn_law_membrane = {
 	.row = {"membrane",
 			"Cloth as triangles: stretch along two directions of threads, shear between them (Baraff, Witkin 1998), "
 			"bending at edges (Grinspun et al. 2003), each with a damping of its own.",
-			keys, sizeof(MembraneDef)},
+			keys, sizeof(JnClothDef)},
 	.build = build,
 };

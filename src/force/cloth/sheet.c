@@ -100,3 +100,16 @@ JnStatus jn_sheet_create(const JnLaw* law, const JnClothDef* def, const JnMesh* 
 	JN_TRY(fill_cells(def, what, arena, sheet));
 	return fill_edges(what, arena, sheet);
 }
+
+JnStatus jn_cloth_build(JnClothFill* fill, const JnLaw* law, const void* options, const JnMesh* mesh, int first_node,
+						const char* what, JnArena* arena, JnGroups* out) {
+	const JnClothDef* def = options;
+	JnArena scratch = {0};
+	JnSheet sheet;
+	*out = (JnGroups){.density = def->density};
+	JN_NEW(arena, out->list, 3);
+	JnStatus status = jn_sheet_create(law, def, mesh, what, &scratch, &sheet);
+	if (status == JN_OK) status = fill(def, &sheet, first_node, &scratch, arena, out);
+	jn_arena_free(&scratch);
+	return status;
+}
