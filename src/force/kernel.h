@@ -91,6 +91,13 @@ struct JnGroup {
 	double damping; ///< stiffness-proportional damping of this group, beside that of the body [s]
 };
 
+/// Node `i` of an element.
+static inline int jn_group_node(const JnGroup* group, int element, int i) {
+	const int width = group->kernel->width;
+	const ptrdiff_t row = (ptrdiff_t)(element / width) * group->kernel->nodes + i;
+	return group->nodes[row * width + element % width];
+}
+
 /// The kernel of (shape, law) for the widest unit that this processor has, or for `width` lanes when that is not 0
 /// (NULL if the processor lacks them).
 const JnKernel* jn_kernel_find(JnShape shape, const JnLaw* law, int width);

@@ -90,14 +90,11 @@ static JnStatus build_elements(const JnItems* defs, JnModel* model, JnArena* scr
 
 // The cells of a group's elements, which stand in batches of lanes.
 static JnStatus list_elements(const JnGroup* group, JnArena* arena, JnCellList* list) {
-	const int nodes = group->kernel->nodes, width = group->kernel->width;
+	const int nodes = group->kernel->nodes;
 	int* cells;
 	JN_NEW(arena, cells, (size_t)group->count * (size_t)nodes);
 	for (int e = 0; e < group->count; ++e)
-		for (int i = 0; i < nodes; ++i) {
-			const size_t place = (size_t)(e / width) * (size_t)nodes + (size_t)i;
-			cells[(size_t)e * (size_t)nodes + (size_t)i] = group->nodes[place * (size_t)width + (size_t)(e % width)];
-		}
+		for (int i = 0; i < nodes; ++i) cells[(size_t)e * (size_t)nodes + (size_t)i] = jn_group_node(group, e, i);
 	*list = (JnCellList){.count = group->count, .nodes = nodes, .cells = cells};
 	return JN_OK;
 }

@@ -51,11 +51,6 @@ static Fracture* of(JnPass* base) {
 	return (Fracture*)base;
 }
 
-static const int* nodes_of(const JnGroup* group, int element) {
-	const int width = group->kernel->width;
-	return group->nodes + (ptrdiff_t)(element / width) * group->kernel->nodes * width + element % width;
-}
-
 static void break_chunks(Elements* elements, const double* x, const bool* doomed, int threads, int* list) {
 	JnGroup* group = elements->group;
 	const int step = CHUNK / group->kernel->width;
@@ -82,9 +77,8 @@ static void count_broken(Fracture* pass, Elements* elements) {
 		pass->last_count += elements->count[c];
 		for (int k = 0; k < elements->count[c]; ++k) {
 			const int element = pass->list[(ptrdiff_t)c * CHUNK + k];
-			const int* nodes = nodes_of(elements->group, element);
 			elements->is_broken[element] = true;
-			for (int i = 0; i < kernel->nodes; ++i) lose(pass, nodes[(ptrdiff_t)i * kernel->width]);
+			for (int i = 0; i < kernel->nodes; ++i) lose(pass, jn_group_node(elements->group, element, i));
 		}
 	}
 }
@@ -158,7 +152,7 @@ static JnStatus add_group(Fracture* pass, JnGroup* group) {
 	JN_NEW(&pass->arena, elements->released, elements->chunks);
 	for (int e = 0; e < group->count; ++e)
 		for (int i = 0; i < group->kernel->nodes; ++i) {
-			const int node = nodes_of(group, e)[(ptrdiff_t)i * group->kernel->width];
+			const int node = jn_group_node(group, e, i);
 			pass->is_member[node] = true;
 			++pass->made[node];
 		}

@@ -28,11 +28,9 @@ static void join(int* parent, int a, int b) {
 }
 
 void jn_fragments_join(JnFragments* fragments, const JnGroup* group, const bool* is_broken) {
-	const int nodes = group->kernel->nodes, width = group->kernel->width;
-	for (int e = 0; e < group->count; ++e) {
-		const int* node = group->nodes + (ptrdiff_t)(e / width) * nodes * width + e % width;
-		for (int i = 1; i < nodes && !is_broken[e]; ++i) join(fragments->parent, node[0], node[(ptrdiff_t)i * width]);
-	}
+	for (int e = 0; e < group->count; ++e)
+		for (int i = 1; i < group->kernel->nodes && !is_broken[e]; ++i)
+			join(fragments->parent, jn_group_node(group, e, 0), jn_group_node(group, e, i));
 }
 
 void jn_fragments_count(JnFragments* fragments, const bool* is_member) {
