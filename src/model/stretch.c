@@ -1,4 +1,5 @@
-// Nodes of one element are neighbours in the pattern of the matrices: edges and diagonals alike.
+// Between all nodes of an element, edges and diagonals alike. The pattern of the matrices would not do: models that have no
+// matrix have only its diagonal.
 #include "model/stretch.h"
 
 #include <math.h>
@@ -9,15 +10,21 @@ static double distance(const double* x, int i, int j) {
 	return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
 }
 
-double jn_model_stretch(const JnModel* model, const double* from, const double* to) {
-	const JnPattern* pattern = &model->pattern;
+static double element_stretch(const JnModel* model, const JnGroup* group, int e, const double* from, const double* to) {
 	double most = 0;
-	for (int column = 0; column < pattern->nodes; ++column)
-		for (int k = pattern->column_start[column] + 1; k < pattern->column_start[column + 1]; ++k) {
-			const int row = pattern->row[k];
-			const double rest = distance(model->rest, row, column);
-			const double change = fabs(distance(to, row, column) - distance(from, row, column));
+	for (int i = 1; i < group->kernel->nodes; ++i)
+		for (int j = 0; j < i; ++j) {
+			const int a = jn_group_node(group, e, i), b = jn_group_node(group, e, j);
+			const double rest = distance(model->rest, a, b), change = fabs(distance(to, a, b) - distance(from, a, b));
 			most = fmax(most, change / (rest > 0 ? rest : 1));
 		}
+	return most;
+}
+
+double jn_model_stretch(const JnModel* model, const double* from, const double* to) {
+	double most = 0;
+	for (int g = 0; g < model->group_count; ++g)
+		for (int e = 0; e < model->groups[g].count; ++e)
+			most = fmax(most, element_stretch(model, &model->groups[g], e, from, to));
 	return most;
 }

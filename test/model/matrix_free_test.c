@@ -1,6 +1,7 @@
 /// @file matrix_free_test.c
 /// Bonds without a matrix against the same with one: products, steps, damping; threads; what is refused.
 #include "force/peridynamic.h"
+#include "model/stretch.h"
 #include "model/system.h"
 #include "support/model_case.h"
 
@@ -53,6 +54,29 @@ static void a_matrix_free_model_has_diagonal_blocks_alone(void** state) {
 		rig_destroy(&rig);
 		jn_arena_free(&c.arena);
 	}
+}
+
+static double stretch_of(int way) {
+	BondCase c;
+	Rig rig;
+	uint64_t seed = 7;
+	double moved[3 * 64];
+	case_bonds(&c, way);
+	rig_create(&rig, &c.base, 1);
+	assert_true(rig.length <= 3 * 64);
+	fill_random(&seed, 0.01, rig.length, moved);
+	for (int k = 0; k < rig.length; ++k) moved[k] += rig.start.x[k];
+	const double stretch = jn_model_stretch(rig.model, rig.start.x, moved);
+	rig_destroy(&rig);
+	jn_arena_free(&c.arena);
+	return stretch;
+}
+
+static void a_stretch_needs_no_matrix(void** state) {
+	(void)state;
+	const double with = stretch_of(ASSEMBLED), without = stretch_of(PRODUCTS);
+	print_message("stretch %g with a matrix, %g without\n", with, without);
+	assert_true(with > 0 && with == without);
 }
 
 // K, D and M of a shaken bar times a vector.
@@ -174,6 +198,7 @@ static void too_many_bonds_for_a_factor_are_refused(void** state) {
 int main(void) {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(a_matrix_free_model_has_diagonal_blocks_alone),
+		cmocka_unit_test(a_stretch_needs_no_matrix),
 		cmocka_unit_test(products_are_those_of_the_assembled_matrix),
 		cmocka_unit_test(the_number_of_threads_changes_no_bit),
 		cmocka_unit_test(all_ways_give_the_same_motion),
