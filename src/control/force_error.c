@@ -138,16 +138,8 @@ static void explain(const JnController* self, JnComplaint* complaint) {
 }
 
 static const JnKey keys[] = {
-	{.name = "tolerance",
-	 .kind = JN_REAL,
-	 .field = offsetof(ForceErrorDef, tolerance),
-	 .value = {1e-5},
-	 .low = 0,
-	 .high = 1e3,
-	 .open = JN_OPEN_LOW,
-	 .unit = "m",
-	 .remedy = "use the largest displacement of a node in a step that you can accept as error",
-	 .meaning = "largest displacement, in a step, by the error of the linearised forces"},
+	JN_TOLERANCE_ROW(ForceErrorDef, "use the largest displacement of a node in a step that you can accept as error",
+					 "largest displacement, in a step, by the error of the linearised forces"),
 	{.name = "safety",
 	 .kind = JN_REAL,
 	 .field = offsetof(ForceErrorDef, safety),

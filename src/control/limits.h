@@ -59,6 +59,13 @@ typedef struct JnStepLimits {
 			"methods that keep them; 1: never"                                                                         \
 	}
 
+/// The row of `tolerance`, an error in metres; `type` has it as a double.
+#define JN_TOLERANCE_ROW(type, remedy_words, words)                                                                    \
+	{                                                                                                                  \
+		.name = "tolerance", .kind = JN_REAL, .field = offsetof(type, tolerance), .value = {1e-5}, .low = 0,           \
+		.high = 1e3, .open = JN_OPEN_LOW, .unit = "m", .remedy = remedy_words, .meaning = words                        \
+	}
+
 /// JN_BAD_INPUT after a message when the bounds contradict each other.
 JnStatus jn_limits_check(const JnController* controller, const JnStepLimits* limits);
 

@@ -47,16 +47,8 @@ void jn_pi_explain(const JnController* self, JnComplaint* complaint) {
 }
 
 const JnKey jn_pi_keys[] = {
-	{.name = "tolerance",
-	 .kind = JN_REAL,
-	 .field = offsetof(JnPiDef, tolerance),
-	 .value = {1e-5},
-	 .low = 0,
-	 .high = 1e3,
-	 .open = JN_OPEN_LOW,
-	 .unit = "m",
-	 .remedy = "use the largest error in the position of a node that you can accept in a step",
-	 .meaning = "error of a step in position that is allowed, in any coordinate"},
+	JN_TOLERANCE_ROW(JnPiDef, "use the largest error in the position of a node that you can accept in a step",
+					 "error of a step in position that is allowed, in any coordinate"),
 	{.name = "relative",
 	 .kind = JN_REAL,
 	 .field = offsetof(JnPiDef, relative),

@@ -118,16 +118,8 @@ static void explain(const JnController* self, JnComplaint* complaint) {
 static const char* const kept[] = {"whole", "halves", NULL};
 
 static const JnKey keys[] = {
-	{.name = "tolerance",
-	 .kind = JN_REAL,
-	 .field = offsetof(DoublingDef, tolerance),
-	 .value = {1e-5},
-	 .low = 0,
-	 .high = 1e3,
-	 .open = JN_OPEN_LOW,
-	 .unit = "m",
-	 .remedy = "use the largest error in the position of a node that you can accept in a step",
-	 .meaning = "largest distance between the ends of one step and of two halves"},
+	JN_TOLERANCE_ROW(DoublingDef, "use the largest error in the position of a node that you can accept in a step",
+					 "largest distance between the ends of one step and of two halves"),
 	{.name = "keep",
 	 .kind = JN_CHOICE,
 	 .field = offsetof(DoublingDef, keep),
