@@ -3,22 +3,6 @@
 /// are refused, and what is said when a run ends.
 #include "support/spring_case.h"
 
-static int set_up(void** state) {
-	(void)state;
-	log_capture();
-	return 0;
-}
-
-static int tear_down(void** state) {
-	(void)state;
-	log_release();
-	return 0;
-}
-
-static void expect_words(const char* part) {
-	if (strstr(log_text(), part) == NULL) fail_msg("'%s' is not in: %s", part, log_text());
-}
-
 static SpringRun run_with(const char* method, double duration, const char* step) {
 	char settings[400];
 	snprintf(settings, sizeof settings,
@@ -270,8 +254,8 @@ static void refuse(const char* method, const char* step, const char* first, cons
 	log_capture();
 	assert_int_equal(spring_open(&c, the_spring(), settings), JN_BAD_INPUT);
 	assert_null(c.sim);
-	expect_words(first);
-	expect_words(second);
+	log_expect(first);
+	log_expect(second);
 	spring_close(&c);
 }
 
@@ -309,8 +293,8 @@ static void the_rule_that_ends_a_run_says_so(void** state) {
 					"{controller: embedded, tolerance: 1e-9 m, dt_min: 0.5 ms}]}}");
 	while (status == JN_OK && !jn_sim_is_done(c.sim)) status = jn_sim_step(c.sim);
 	assert_int_equal(status, JN_RUN_FAILED);
-	expect_words("estimated error");
-	expect_words("step.rules[1].dt_min = 0.0005 s");
+	log_expect("estimated error");
+	log_expect("step.rules[1].dt_min = 0.0005 s");
 	spring_close(&c);
 }
 
@@ -333,5 +317,5 @@ int main(void) {
 		cmocka_unit_test(a_list_of_rules_must_make_sense),
 		cmocka_unit_test(the_rule_that_ends_a_run_says_so),
 	};
-	return cmocka_run_group_tests(tests, set_up, tear_down);
+	return cmocka_run_group_tests(tests, log_set_up, log_tear_down);
 }

@@ -3,22 +3,6 @@
 /// the step; what it refuses.
 #include "support/spring_case.h"
 
-static int set_up(void** state) {
-	(void)state;
-	log_capture();
-	return 0;
-}
-
-static int tear_down(void** state) {
-	(void)state;
-	log_release();
-	return 0;
-}
-
-static void expect_words(const char* part) {
-	if (strstr(log_text(), part) == NULL) fail_msg("'%s' is not in: %s", part, log_text());
-}
-
 // A controller beside an integrator on a system, stepped by hand.
 typedef struct Judge {
 	double options[16];
@@ -255,8 +239,8 @@ static void refuse(const char* settings, const char* first, const char* second) 
 	log_capture();
 	assert_int_equal(spring_open(&c, the_spring(), settings), JN_BAD_INPUT);
 	assert_null(c.sim);
-	expect_words(first);
-	expect_words(second);
+	log_expect(first);
+	log_expect(second);
 	spring_close(&c);
 }
 
@@ -309,9 +293,9 @@ static void a_tolerance_that_no_step_meets_ends_the_run_with_dt_min(void** state
 					"dt: 20 ms, dt_min: 8 ms}}");
 	while (status == JN_OK && !jn_sim_is_done(c.sim)) status = jn_sim_step(c.sim);
 	assert_int_equal(status, JN_RUN_FAILED);
-	expect_words("force error");
-	expect_words("step.dt_min = 0.008 s");
-	expect_words("step.tolerance");
+	log_expect("force error");
+	log_expect("step.dt_min = 0.008 s");
+	log_expect("step.tolerance");
 	spring_close(&c);
 }
 
@@ -324,8 +308,8 @@ static void forces_that_fail_are_cut_down_to_dt_min(void** state) {
 		&c, &spring, "{duration: 1 s, integrator: newmark, step: {controller: force_error, dt_min: 1e-6 s}}");
 	while (status == JN_OK && !jn_sim_is_done(c.sim)) status = jn_sim_step(c.sim);
 	assert_int_equal(status, JN_RUN_FAILED);
-	expect_words("not finite");
-	expect_words("step.dt_min = 1e-06 s");
+	log_expect("not finite");
+	log_expect("step.dt_min = 1e-06 s");
 	spring_close(&c);
 }
 
@@ -342,5 +326,5 @@ int main(void) {
 		cmocka_unit_test(a_tolerance_that_no_step_meets_ends_the_run_with_dt_min),
 		cmocka_unit_test(forces_that_fail_are_cut_down_to_dt_min),
 	};
-	return cmocka_run_group_tests(tests, set_up, tear_down);
+	return cmocka_run_group_tests(tests, log_set_up, log_tear_down);
 }

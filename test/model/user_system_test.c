@@ -4,22 +4,6 @@
 #include "support/model_case.h"
 #include "support/support.h"
 
-static int set_up(void** state) {
-	(void)state;
-	log_capture();
-	return 0;
-}
-
-static int tear_down(void** state) {
-	(void)state;
-	log_release();
-	return 0;
-}
-
-static void expect_words(const char* part) {
-	if (strstr(log_text(), part) == NULL) fail_msg("'%s' is not in: %s", part, log_text());
-}
-
 // ---- refusals
 
 static int pull(void* user, double t, const double* x, const double* v, double* f) {
@@ -39,8 +23,8 @@ static void a_system_needs_a_sensible_number_of_unknowns(void** state) {
 		assert_null(sys);
 		char number[16];
 		snprintf(number, sizeof number, " %d ", counts[i]);
-		expect_words(number);
-		expect_words("2000");
+		log_expect(number);
+		log_expect("2000");
 	}
 }
 
@@ -49,7 +33,7 @@ static void a_system_needs_a_force(void** state) {
 	JnSystem* sys = NULL;
 	assert_int_equal(jn_user_system_create(&(JnUserSystemDef){.count = 1}, &sys), JN_BAD_INPUT);
 	assert_null(sys);
-	expect_words("force");
+	log_expect("force");
 }
 
 static void a_mass_must_be_finite(void** state) {
@@ -59,7 +43,7 @@ static void a_mass_must_be_finite(void** state) {
 	assert_int_equal(jn_user_system_create(&(JnUserSystemDef){.count = 2, .force = pull, .mass = mass}, &sys),
 					 JN_BAD_INPUT);
 	assert_null(sys);
-	expect_words("mass[1][0]");
+	log_expect("mass[1][0]");
 }
 
 // jn_sim_create_for on the oscillator x'' = -x.
@@ -83,7 +67,7 @@ static void a_start_must_be_finite(void** state) {
 	for (int i = 0; i < 3; ++i) {
 		log_capture();
 		assert_int_equal(create_sim("{duration: 1 s, step: {dt: 0.1 s}}", starts[i][0], starts[i][1]), JN_BAD_INPUT);
-		expect_words("not finite");
+		log_expect("not finite");
 	}
 	assert_int_equal(create_sim("{duration: 1 s, step: {dt: 0.1 s}}", 1, 0), JN_OK);
 }
@@ -103,8 +87,8 @@ static void settings_that_cannot_be_right_are_refused_with_their_place(void** st
 	for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
 		log_capture();
 		assert_int_equal(create_sim(wrong[i].text, 1, 0), JN_BAD_INPUT);
-		expect_words(wrong[i].place);
-		expect_words(wrong[i].part);
+		log_expect(wrong[i].place);
+		log_expect(wrong[i].part);
 	}
 }
 
@@ -132,8 +116,8 @@ static void explicit_methods_refuse_a_mass_that_is_not_diagonal(void** state) {
 			assert_int_equal(jn_user_system_create(&def, &sys), JN_OK);
 			const JnStatus status = jn_sim_create_for(sys, settings, x, v, &sim);
 			assert_int_equal(status, is_full && is_explicit ? JN_BAD_INPUT : JN_OK);
-			if (status != JN_OK) expect_words(type->row.name);
-			if (status != JN_OK) expect_words("diagonal");
+			if (status != JN_OK) log_expect(type->row.name);
+			if (status != JN_OK) log_expect("diagonal");
 			if (status == JN_OK) assert_int_equal(jn_sim_step(sim), JN_OK);
 			jn_sim_destroy(sim);
 			jn_user_system_destroy(sys);
@@ -182,8 +166,8 @@ static void run_into(Fault fault, const char* method) {
 	assert_true(s->t <= fault.from && s->t > fault.from - 0.125);
 	assert_int_equal(jn_sim_last_report(sim)->rejected >= 1, true); // it tried smaller steps
 	snprintf(place, sizeof place, "step %ld at t = %.9g s failed", jn_sim_steps(sim) + 1, s->t);
-	expect_words(place);
-	expect_words("not finite");
+	log_expect(place);
+	log_expect("not finite");
 	jn_sim_destroy(sim);
 	jn_user_system_destroy(sys);
 }
@@ -329,5 +313,5 @@ int main(void) {
 		cmocka_unit_test(tangents_from_callback_products_and_differences_agree),
 		cmocka_unit_test(a_tangent_that_is_not_symmetric_finds_the_van_der_pol_cycle),
 	};
-	return cmocka_run_group_tests(tests, set_up, tear_down);
+	return cmocka_run_group_tests(tests, log_set_up, log_tear_down);
 }

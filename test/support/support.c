@@ -90,6 +90,22 @@ void log_release(void) {
 	jn_log_set_sink(NULL, NULL);
 }
 
+int log_set_up(void** state) {
+	(void)state;
+	log_capture();
+	return 0;
+}
+
+int log_tear_down(void** state) {
+	(void)state;
+	log_release();
+	return 0;
+}
+
+void log_expect(const char* part) {
+	if (strstr(log_text(), part) == NULL) fail_msg("'%s' is not in: %s", part, log_text());
+}
+
 static int open_nameless(void) {
 	char path[] = "/tmp/jounce_words_XXXXXX";
 	const int file = mkostemp(path, O_CLOEXEC);

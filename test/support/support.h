@@ -22,6 +22,11 @@ char* file_read(const char* path);
 void log_capture(void);
 const char* log_text(void);
 void log_release(void);
+/// log_capture and log_release for cmocka's groups.
+int log_set_up(void** state);
+int log_tear_down(void** state);
+/// The test fails when `part` is not in what was captured.
+void log_expect(const char* part);
 
 /// What a process left behind. Free with outcome_free.
 typedef struct Outcome {
