@@ -1,4 +1,4 @@
-// Vectors are cut into chunks of CHUNK entries. A reduction sums each chunk in LANES interleaved accumulators and then
+// Vectors are cut into chunks of CHUNK entries. A reduction sums each chunk in interleaved accumulators and then
 // the chunks in order, so that its bits depend neither on the threads nor on the width of the vector unit.
 #include "base/space.h"
 
@@ -7,13 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/algebra.h"
 #include "base/log.h"
 #include "base/parallel.h"
 
-enum { CHUNK = 4096, LANES = 8, ALIGNMENT = 64, GRAIN = 65536, MOST_TERMS = 16 };
+enum { CHUNK = JN_ALGEBRA_CHUNK, ALIGNMENT = 64, GRAIN = 65536, MOST_TERMS = 16 };
 
 typedef struct HostSpace {
 	JnSpace base;
+	const JnAlgebra* algebra;
 	size_t chunks;
 	double* partial; // one number a chunk
 } HostSpace;
@@ -42,108 +44,58 @@ static size_t chunk_end(const JnSpace* space, size_t chunk) {
 	return end < space->length ? end : space->length;
 }
 
-// Entries are independent even where `out` is one of the terms: each is read before it is written.
-#if defined(__clang__)
-	#define INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
-#else
-	#define INDEPENDENT _Pragma("GCC ivdep")
-#endif
-
-static void combine_one(double* out, const JnTerm* t, size_t n) {
-	const double* a = t->vec;
-	const double sa = t->scale;
-	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] = sa * a[k];
-}
-
-static void combine_two(double* out, const JnTerm* t, size_t n) {
-	const double *a = t[0].vec, *b = t[1].vec;
-	const double sa = t[0].scale, sb = t[1].scale;
-	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] = sa * a[k] + sb * b[k];
-}
-
-static void combine_three(double* out, const JnTerm* t, size_t n) {
-	const double *a = t[0].vec, *b = t[1].vec, *c = t[2].vec;
-	const double sa = t[0].scale, sb = t[1].scale, sc = t[2].scale;
-	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] = sa * a[k] + sb * b[k] + sc * c[k];
-}
-
-// More terms than that: each chunk is summed beside, since `out` may be a term that is still to come.
-static void combine_many(double* out, int count, const JnTerm terms[], size_t n) {
-	double sum[CHUNK];
-	for (size_t k = 0; k < n; ++k) sum[k] = terms[0].scale * terms[0].vec[k];
-	for (int i = 1; i < count; ++i) {
-		const double* vec = terms[i].vec;
-		const double scale = terms[i].scale;
-		for (size_t k = 0; k < n; ++k) sum[k] += scale * vec[k];
-	}
-	memcpy(out, sum, n * sizeof *sum);
-}
-
 // out[first .. last) = sum of the terms, in their order.
-static void combine_range(double* out, int count, const JnTerm terms[], size_t first, size_t last) {
+static void combine_range(const JnAlgebra* algebra, JnVec out, int count, const JnTerm terms[], size_t first,
+						  size_t last) {
 	JnTerm here[MOST_TERMS];
 	for (int i = 0; i < count; ++i) here[i] = (JnTerm){terms[i].scale, terms[i].vec + first};
-	const size_t n = last - first;
-	if (count == 1)
-		combine_one(out + first, here, n);
-	else if (count == 2)
-		combine_two(out + first, here, n);
-	else if (count == 3)
-		combine_three(out + first, here, n);
-	else
-		combine_many(out + first, count, here, n);
+	algebra->combine(last - first, count, here, out + first);
 }
 
 static void combine(JnSpace* space, JnVec out, int count, const JnTerm terms[]) {
-	const long chunks = (long)((HostSpace*)space)->chunks;
+	const HostSpace* host = (const HostSpace*)space;
+	const long chunks = (long)host->chunks;
 	assert(count >= 0 && count <= MOST_TERMS);
 	if (count == 0) {
 		memset(out, 0, space->length * sizeof *out);
 		return;
 	}
+	if (chunks == 1) {
+		host->algebra->combine(space->length, count, terms, out);
+		return;
+	}
 	if (threads_of(space) == 1) {
 		for (long c = 0; c < chunks; ++c)
-			combine_range(out, count, terms, (size_t)c * CHUNK, chunk_end(space, (size_t)c));
+			combine_range(host->algebra, out, count, terms, (size_t)c * CHUNK, chunk_end(space, (size_t)c));
 		return;
 	}
 #pragma omp parallel for schedule(static) num_threads(threads_of(space))
-	for (long c = 0; c < chunks; ++c) combine_range(out, count, terms, (size_t)c * CHUNK, chunk_end(space, (size_t)c));
+	for (long c = 0; c < chunks; ++c)
+		combine_range(host->algebra, out, count, terms, (size_t)c * CHUNK, chunk_end(space, (size_t)c));
 }
 
-static double dot_range(const double* a, const double* b, size_t n) {
-	double lane[LANES] = {0};
-	size_t k = 0;
-	for (; k + LANES <= n; k += LANES)
-		for (int l = 0; l < LANES; ++l) lane[l] += a[k + (size_t)l] * b[k + (size_t)l];
-	for (int l = 0; k < n; ++k, ++l) lane[l] += a[k] * b[k];
-	return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+static double dot_chunk(const HostSpace* host, long chunk, const double* a, const double* b) {
+	const size_t first = (size_t)chunk * CHUNK;
+	return host->algebra->dot(chunk_end(&host->base, (size_t)chunk) - first, a + first, b + first);
 }
 
 static double dot(JnSpace* space, const double* a, const double* b) {
 	HostSpace* host = (HostSpace*)space;
 	const long chunks = (long)host->chunks;
-#pragma omp parallel for schedule(static) num_threads(threads_of(space)) if (threads_of(space) > 1)
-	for (long c = 0; c < chunks; ++c) {
-		const size_t first = (size_t)c * CHUNK;
-		host->partial[c] = dot_range(a + first, b + first, chunk_end(space, (size_t)c) - first);
-	}
+	const int team = threads_of(space);
 	double sum = 0;
+	if (team == 1) {
+		for (long c = 0; c < chunks; ++c) sum += dot_chunk(host, c, a, b);
+		return sum;
+	}
+#pragma omp parallel for schedule(static) num_threads(team)
+	for (long c = 0; c < chunks; ++c) host->partial[c] = dot_chunk(host, c, a, b);
 	for (long c = 0; c < chunks; ++c) sum += host->partial[c];
 	return sum;
 }
 
-static double max_range(const double* a, size_t n) {
-	double largest = 0;
-	for (size_t k = 0; k < n; ++k) {
-		const double size = fabs(a[k]);
-		if (!(size <= largest)) largest = size; // true for NAN, which then stays
-		if (isnan(largest)) return largest;
-	}
-	return largest;
-}
-
 static double max(JnSpace* space, const double* a) {
-	return max_range(a, space->length);
+	return ((const HostSpace*)space)->algebra->max(space->length, a);
 }
 
 static double longest(JnSpace* space, const double* a) {
@@ -172,6 +124,7 @@ JnSpace* jn_host_space_create(size_t length, int threads) {
 		return NULL;
 	}
 	host->base = (JnSpace){.ops = &host_ops, .length = length, .threads = threads > 0 ? threads : 1};
+	host->algebra = jn_algebra_best();
 	host->chunks = chunks;
 	host->partial = partial;
 	return &host->base;

@@ -71,6 +71,33 @@ JN_INLINE Wide wide_gather(const double* from, int stride, const int* index) {
 #undef JN_AT
 }
 
+/// out[k] = rows[lane][k] in each lane, k < count: four at a time by a transposition where four lanes are.
+JN_INLINE void wide_gather_rows(const double* const rows[JN_WIDE], int count, Wide out[]) {
+	int k = 0;
+#if JN_WIDE == 4
+	for (; k + 4 <= count; k += 4) {
+		const Wide a = wide_load(rows[0] + k), b = wide_load(rows[1] + k);
+		const Wide c = wide_load(rows[2] + k), d = wide_load(rows[3] + k);
+		const Wide ab = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+		const Wide cd = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+		out[k] = __builtin_shufflevector(ab, cd, 0, 1, 4, 5);
+		out[k + 1] = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+		out[k + 2] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+		out[k + 3] = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
+	}
+#endif
+#define JN_AT(lane) rows[lane][k]
+#if JN_WIDE == 8
+	for (; k < count; k++)
+		out[k] = (Wide){JN_AT(0), JN_AT(1), JN_AT(2), JN_AT(3), JN_AT(4), JN_AT(5), JN_AT(6), JN_AT(7)};
+#elif JN_WIDE == 4
+	for (; k < count; k++) out[k] = (Wide){JN_AT(0), JN_AT(1), JN_AT(2), JN_AT(3)};
+#else
+	for (; k < count; k++) out[k] = (Wide){JN_AT(0), JN_AT(1)};
+#endif
+#undef JN_AT
+}
+
 /// mask ? a : b, lane by lane.
 JN_INLINE Wide wide_select(WideMask mask, Wide a, Wide b) {
 	return (Wide)((mask & (WideMask)a) | (~mask & (WideMask)b));
@@ -78,9 +105,13 @@ JN_INLINE Wide wide_select(WideMask mask, Wide a, Wide b) {
 
 /// Whether any lane of the mask is set.
 JN_INLINE bool wide_any(WideMask mask) {
-	int64_t any = 0;
-	JN_UNROLL for (int lane = 0; lane < JN_WIDE; lane++) any |= mask[lane];
-	return any != 0;
+#if JN_WIDE_INTRINSICS && JN_WIDE == 8
+	return _mm512_test_epi64_mask((__m512i)mask, (__m512i)mask) != 0;
+#elif JN_WIDE_INTRINSICS
+	return JN_WIDE_CALL(movemask_pd)((Wide)mask) != 0;
+#else
+	return (mask[0] | mask[1]) != 0;
+#endif
 }
 
 JN_INLINE Wide wide_abs(Wide a) {

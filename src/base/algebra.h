@@ -1,0 +1,28 @@
+/// @file algebra.h
+/// Loops over vectors, compiled once a vector width. Each gives the same bits for every width: entries are independent,
+/// nothing is fused, and sums run in eight interleaved accumulators.
+#ifndef JN_BASE_ALGEBRA_H
+#define JN_BASE_ALGEBRA_H
+
+#include "jounce/base.h"
+
+enum { JN_ALGEBRA_CHUNK = 4096 };
+
+typedef struct JnAlgebra {
+	/// out[0 .. n) = sum of scale * vec, in the order of the terms, of which `out` may be one. count >= 1; more than three
+	/// terms: n <= JN_ALGEBRA_CHUNK.
+	void (*combine)(size_t n, int count, const JnTerm terms[], double* out);
+	double (*dot)(size_t n, const double* a, const double* b);
+	double (*max)(size_t n, const double* a); ///< largest absolute entry; NAN if any is NAN
+	/// out = a * b, entry by entry; out may be one of them.
+	void (*multiply)(size_t n, const double* a, const double* b, double* out);
+	/// out += scale * a * b, entry by entry; out is neither.
+	void (*accumulate)(size_t n, double scale, const double* a, const double* b, double* out);
+} JnAlgebra;
+
+extern const JnAlgebra jn_algebra_2, jn_algebra_4, jn_algebra_8;
+
+/// That for the widest unit that this processor has.
+const JnAlgebra* jn_algebra_best(void);
+
+#endif

@@ -1,0 +1,140 @@
+// Plain loops that compilers turn into instructions of JN_WIDE doubles; exports the table jn_algebra_<width>.
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+#if defined(__SSE2__)
+	#include <immintrin.h>
+#endif
+
+#include "base/algebra.h"
+
+#ifndef JN_WIDE
+	#define JN_WIDE 2
+#endif
+
+#define JOIN_NAMES(a, b) a##b
+#define JOIN(a, b) JOIN_NAMES(a, b)
+
+enum { LANES = 8 };
+
+// Entries are independent even where `out` is one of the terms: each is read before it is written.
+#if defined(__clang__)
+	#define INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#else
+	#define INDEPENDENT _Pragma("GCC ivdep")
+#endif
+
+static void combine_one(size_t n, const JnTerm* t, double* out) {
+	const double* a = t->vec;
+	const double sa = t->scale;
+	if (sa == 1)
+		memmove(out, a, n * sizeof *out);
+	else
+		INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] = sa * a[k];
+}
+
+static void combine_two(size_t n, const JnTerm* t, double* out) {
+	const double *a = t[0].vec, *b = t[1].vec;
+	const double sa = t[0].scale, sb = t[1].scale;
+	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] = sa * a[k] + sb * b[k];
+}
+
+static void combine_three(size_t n, const JnTerm* t, double* out) {
+	const double *a = t[0].vec, *b = t[1].vec, *c = t[2].vec;
+	const double sa = t[0].scale, sb = t[1].scale, sc = t[2].scale;
+	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] = sa * a[k] + sb * b[k] + sc * c[k];
+}
+
+// More terms than that are summed beside, since `out` may be a term that is still to come.
+static void combine_many(size_t n, int count, const JnTerm terms[], double* out) {
+	double sum[JN_ALGEBRA_CHUNK];
+	for (size_t k = 0; k < n; ++k) sum[k] = terms[0].scale * terms[0].vec[k];
+	for (int i = 1; i < count; ++i) {
+		const double* vec = terms[i].vec;
+		const double scale = terms[i].scale;
+		for (size_t k = 0; k < n; ++k) sum[k] += scale * vec[k];
+	}
+	memcpy(out, sum, n * sizeof *sum);
+}
+
+static void combine(size_t n, int count, const JnTerm terms[], double* out) {
+	if (count == 1)
+		combine_one(n, terms, out);
+	else if (count == 2)
+		combine_two(n, terms, out);
+	else if (count == 3)
+		combine_three(n, terms, out);
+	else
+		combine_many(n, count, terms, out);
+}
+
+static double dot(size_t n, const double* a, const double* b) {
+	double lane[LANES] = {0};
+	size_t k = 0;
+	for (; k + LANES <= n; k += LANES)
+		for (int l = 0; l < LANES; ++l) lane[l] += a[k + (size_t)l] * b[k + (size_t)l];
+	for (int l = 0; k < n; ++k, ++l) lane[l] += a[k] * b[k];
+	return ((lane[0] + lane[4]) + (lane[2] + lane[6])) + ((lane[1] + lane[5]) + (lane[3] + lane[7]));
+}
+
+static double max_of_any(size_t n, const double* a) {
+	double largest = 0;
+	for (size_t k = 0; k < n; ++k) {
+		const double size = fabs(a[k]);
+		if (!(size <= largest)) largest = size; // true for NAN, which then stays
+		if (isnan(largest)) return largest;
+	}
+	return largest;
+}
+
+typedef double Wide __attribute__((vector_size(JN_WIDE * 8)));
+typedef int64_t Mask __attribute__((vector_size(JN_WIDE * 8)));
+typedef double Loaded __attribute__((vector_size(JN_WIDE * 8), aligned(8), may_alias));
+
+// The larger of two numbers >= 0, lane by lane.
+static inline Wide larger(Wide a, Wide b) {
+#if defined(__SSE2__) && JN_WIDE == 8
+	return (Wide)_mm512_max_pd((__m512d)a, (__m512d)b);
+#elif defined(__SSE2__) && JN_WIDE == 4
+	return (Wide)_mm256_max_pd((__m256d)a, (__m256d)b);
+#elif defined(__SSE2__)
+	return (Wide)_mm_max_pd((__m128d)a, (__m128d)b);
+#else
+	const Mask is_less = a < b;
+	return (Wide)((is_less & (Mask)b) | (~is_less & (Mask)a));
+#endif
+}
+
+// Comparisons lose a NAN, and so does the larger of two; where all are finite, there is none. Two chains hide the latency
+// of each other.
+static double max(size_t n, const double* a) {
+	Wide most[2] = {{0}, {0}};
+	Mask is_finite = ~(Mask){0};
+	size_t k = 0;
+	for (; k + 2 * JN_WIDE <= n; k += 2 * JN_WIDE)
+		for (int c = 0; c < 2; ++c) {
+			const Wide size = (Wide)((Mask) * (const Loaded*)(a + k + (size_t)c * JN_WIDE) & INT64_MAX);
+			most[c] = larger(most[c], size);
+			is_finite &= size <= DBL_MAX;
+		}
+	double out = max_of_any(n - k, a + k);
+	bool all_finite = out <= DBL_MAX;
+	for (int l = 0; l < JN_WIDE; ++l) {
+		all_finite &= is_finite[l] != 0;
+		out = fmax(out, fmax(most[0][l], most[1][l]));
+	}
+	return all_finite ? out : max_of_any(n, a);
+}
+
+static void multiply(size_t n, const double* a, const double* b, double* out) {
+	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] = a[k] * b[k];
+}
+
+static void accumulate(size_t n, double scale, const double* a, const double* b, double* out) {
+	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] += scale * (a[k] * b[k]);
+}
+
+const JnAlgebra JOIN(jn_algebra_, JN_WIDE) = {
+	.combine = combine, .dot = dot, .max = max, .multiply = multiply, .accumulate = accumulate};
