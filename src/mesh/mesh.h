@@ -51,6 +51,7 @@ typedef struct JnMesh {
 	const double* volumes;               ///< of JN_POINT1: one a node [m^3], which make its mass; else NULL
 	double thickness;                    ///< of JN_POINT1 in a single layer across z [m]; 0: not a layer
 	const struct JnRigid* rigid;         ///< of a rigid ball or plate about the only node (rigid.h); NULL: deformable
+	const struct JnThread* thread;       ///< the chain of frames that its nodes are (thread.h); NULL: none
 } JnMesh;
 
 /// Volume of a cell by its straight-sided corners [m^3]; negative when it is inside out. Area of a triangle [m^2].

@@ -25,8 +25,9 @@ static void blend(const double a[3], const double b[3], double from, double to, 
 	for (int axis = 0; axis < 3; ++axis) out[axis] = ((to - t) * a[axis] + (t - from) * b[axis]) / (to - from);
 }
 
-/// Point number `index`; one before the first and one behind the last continue the line.
-static void point_at(int count, const double* points, int index, double out[3]) {
+/// Point number `index`; one before the first and one behind the last continue the line, or a closed curve goes round.
+static void point_at(int count, const double* points, bool is_closed, int index, double out[3]) {
+	if (is_closed) index = (index + count) % count;
 	const int inside = index < 0 ? 0 : index >= count ? count - 1 : index;
 	const int inward = index < 0 ? 1 : count - 2;
 	for (int axis = 0; axis < 3; ++axis) {
@@ -36,9 +37,9 @@ static void point_at(int count, const double* points, int index, double out[3]) 
 }
 
 /// Barry, Goldman 1988: knots at square roots of distances keep the curve free of loops.
-static void segment_point(int count, const double* points, int segment, double share, double out[3]) {
+void jn_curve_point(int count, const double* points, bool is_closed, int segment, double share, double out[3]) {
 	double p[4][3], knot[4] = {0}, a[3][3], b[2][3];
-	for (int i = 0; i < 4; ++i) point_at(count, points, segment - 1 + i, p[i]);
+	for (int i = 0; i < 4; ++i) point_at(count, points, is_closed, segment - 1 + i, p[i]);
 	for (int i = 1; i < 4; ++i) knot[i] = knot[i - 1] + sqrt(distance(p[i - 1], p[i]));
 	const double t = knot[1] + share * (knot[2] - knot[1]);
 	for (int i = 0; i < 3; ++i) blend(p[i], p[i + 1], knot[i], knot[i + 1], t, a[i]);
@@ -50,7 +51,7 @@ static void sample_curve(int point_count, const double* points, double (*samples
 	const int count = (point_count - 1) * SAMPLES;
 	for (int i = 0; i <= count; ++i) {
 		const int segment = i < count ? i / SAMPLES : point_count - 2;
-		segment_point(point_count, points, segment, (double)(i - segment * SAMPLES) / SAMPLES, samples[i]);
+		jn_curve_point(point_count, points, false, segment, (double)(i - segment * SAMPLES) / SAMPLES, samples[i]);
 		lengths[i] = i == 0 ? 0 : lengths[i - 1] + distance(samples[i - 1], samples[i]);
 	}
 }
@@ -71,8 +72,20 @@ static void reflect(const double normal[3], double v[3]) {
 	for (int axis = 0; axis < 3; ++axis) v[axis] -= scale * normal[axis];
 }
 
-/// The frame at `to` from that at `from`: reflected at the plane between them, and at the one that turns `along` right.
-static void carry_frame(const JnStation* from, JnStation* to) {
+static void complete_frame(JnStation* s) {
+	for (int axis = 0; axis < 3; ++axis) {
+		const int next = (axis + 1) % 3, last = (axis + 2) % 3;
+		s->across[1][axis] = s->along[next] * s->across[0][last] - s->along[last] * s->across[0][next];
+	}
+}
+
+void jn_station_begin(JnStation* s) {
+	any_across(s->along, s->across[0]);
+	complete_frame(s);
+}
+
+// Reflected at the plane between them, and at the one that turns `along` right. What rounding leaves along the curve goes.
+void jn_station_carry(const JnStation* from, JnStation* to) {
 	double chord[3], along[3], turn[3];
 	memcpy(to->across[0], from->across[0], sizeof to->across[0]);
 	memcpy(along, from->along, sizeof along);
@@ -81,12 +94,19 @@ static void carry_frame(const JnStation* from, JnStation* to) {
 	reflect(chord, along);
 	subtract(to->along, along, turn);
 	reflect(turn, to->across[0]);
+	const double slope = dot(to->across[0], to->along);
+	for (int axis = 0; axis < 3; ++axis) to->across[0][axis] -= slope * to->along[axis];
+	const double length = sqrt(dot(to->across[0], to->across[0]));
+	for (int axis = 0; axis < 3; ++axis) to->across[0][axis] /= length;
+	complete_frame(to);
 }
 
-static void complete_frame(JnStation* s) {
+void jn_station_turn(JnStation* s, double angle) {
+	const double c = cos(angle), d = sin(angle);
 	for (int axis = 0; axis < 3; ++axis) {
-		const int next = (axis + 1) % 3, last = (axis + 2) % 3;
-		s->across[1][axis] = s->along[next] * s->across[0][last] - s->along[last] * s->across[0][next];
+		const double a = s->across[0][axis], b = s->across[1][axis];
+		s->across[0][axis] = c * a + d * b;
+		s->across[1][axis] = c * b - d * a;
 	}
 }
 
@@ -110,10 +130,9 @@ JnStatus jn_curve_stations(int point_count, const double* points, int count, JnS
 		direct(i > 0 ? samples[before] : samples[0], i < count - 1 ? samples[behind] : samples[last],
 			   stations[i].along);
 		if (i == 0)
-			any_across(stations[0].along, stations[0].across[0]);
+			jn_station_begin(&stations[0]);
 		else
-			carry_frame(&stations[i - 1], &stations[i]);
-		complete_frame(&stations[i]);
+			jn_station_carry(&stations[i - 1], &stations[i]);
 	}
 	return JN_OK;
 }

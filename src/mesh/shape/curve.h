@@ -17,4 +17,15 @@ typedef struct JnStation {
 /// minimise rotation by double reflection (Wang, Juettler, Zheng, Liu 2008).
 JnStatus jn_curve_stations(int point_count, const double* points, int count, JnStation* stations, JnArena* scratch);
 
+/// Point at a share, 0 to 1 or a little beyond, of the way from points[segment] to the next one, of the same curve or of the
+/// closed one through three points or more.
+void jn_curve_point(int count, const double* points, bool is_closed, int segment, double share, double out[3]);
+
+/// The frame of a station whose X and `along` are there: any across, or that of another station carried along.
+void jn_station_begin(JnStation* station);
+void jn_station_carry(const JnStation* from, JnStation* to);
+
+/// Turn the frame about `along`, right-handed [rad].
+void jn_station_turn(JnStation* station, double angle);
+
 #endif
