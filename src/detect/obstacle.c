@@ -69,7 +69,7 @@ static void across(const double axis[3], double out[3]) {
 
 static double capsule_distance(const void* geometry, const double point[3], double normal[3]) {
 	const JnCapsuleDef* capsule = geometry;
-	double axis[3], from[3], away[3], side[3];
+	double axis[3], from[3], away[3], side[3] = {up[0], up[1], up[2]};
 	for (int a = 0; a < 3; a++) {
 		axis[a] = capsule->ends[1][a] - capsule->ends[0][a];
 		from[a] = point[a] - capsule->ends[0][a];
@@ -77,8 +77,8 @@ static double capsule_distance(const void* geometry, const double point[3], doub
 	const double square = vec3_dot(axis, axis);
 	const double along = square > 0 ? fmax(0, fmin(1, vec3_dot(from, axis) / square)) : 0;
 	for (int a = 0; a < 3; a++) away[a] = from[a] - along * axis[a];
-	across(axis, side);
-	return unit(away, square > 0 ? side : up, normal) - capsule->radius;
+	if (square > 0 && !(vec3_dot(away, away) > 0)) across(axis, side);
+	return unit(away, side, normal) - capsule->radius;
 }
 
 static void triangle_normal(const JnSurface* surface, int triangle, double normal[3]) {
