@@ -31,6 +31,13 @@ typedef struct JnGroups {
 	double density; ///< [kg/m^3]; of a surface [kg/m^2]
 } JnGroups;
 
+/// What relaxation may move.
+typedef enum JnRelaxed {
+	JN_RELAXED_SPRINGS = 1, ///< lengths of springs
+	JN_RELAXED_AXIS = 2,    ///< of a thread: distances of neighbouring frames along its axis
+	JN_RELAXED_VOLUMES = 4, ///< of tetrahedra
+} JnRelaxed;
+
 /// A constitutive law as scene files name it. What a solid's computes stands in material/<name>.h, compiled into the
 /// kernels.
 struct JnLaw {
@@ -41,6 +48,8 @@ struct JnLaw {
 					  JnArena* arena, JnGroups* out);
 	void (*prepare)(const JnMaterialDef* def, double constants[JN_LAW_CONSTANTS]); ///< of solids: Lame constants etc.
 	bool is_linear_in_step; ///< force linear in x between two freezes: Newton needs one iteration
+	/// Groups of what relaxation may move (relax.h), up to JN_RELAX_COUNT; `kinds` are bits of JnRelaxed. NULL: nothing.
+	JnStatus (*relaxed)(unsigned kinds, const JnMesh* mesh, int first_node, JnArena* arena, JnGroups* out);
 };
 
 extern const JnRowList jn_law_list; ///< rows are &JnLaw.row
@@ -48,6 +57,13 @@ extern const JnRowList jn_law_list; ///< rows are &JnLaw.row
 /// JnLaw.build of solids: one group, of the kernel of (shape, law).
 JnStatus jn_solid_build(const JnLaw* law, const void* options, const JnMesh* mesh, int first_node, const char* what,
 						JnArena* arena, JnGroups* out);
+
+/// How relax() moves nodes.
+typedef struct JnRelaxation {
+	const double* inverse_mass; ///< 3 * nodes of the model [1/kg]; 0: this coordinate is held
+	double compliance;          ///< alpha / dt^2, with alpha = 1/k of a measure whose energy is k/2 C^2; 0: rigid
+	double factor;              ///< of every correction, in (0, 2); 1: as much as restores C = 0
+} JnRelaxation;
 
 typedef struct JnKernel {
 	const JnLaw* law; ///< of a solid; NULL: several laws build groups of this kernel
@@ -75,6 +91,11 @@ typedef struct JnKernel {
 	/// have no force from then on. Writes their numbers to `broken`, adds the energy that they held to *released [J],
 	/// returns how many. NULL: nothing breaks.
 	int (*damage)(JnGroup*, int first, int last, const double* x, const bool* doomed, int* broken, double* released);
+	/// Move x onto the rest measure, element by element: no two of a batch may share a node. lambda[batch][lane] is what the
+	/// sweeps of a step have summed up. NULL: elements without such a measure.
+	void (*relax)(const JnGroup*, int first, int last, const JnRelaxation* how, double* x, double* lambda);
+	/// out[batch - first][lane] = C of each element over its size at rest, such as (l - L) / L; 0 in padding. With relax().
+	void (*strain)(const JnGroup*, int first, int last, const double* x, double* out);
 } JnKernel;
 
 /// Some of a body's elements, of one kernel.

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "force/cloth/cloth.h"
+#include "force/constraint/law.h"
 #include "force/material/law.h"
 #include "force/material/stable_neo_hookean.h"
 #include "force/peridynamic.h"
@@ -77,6 +78,8 @@ static const JnRow* const law_rows[] = {
 #define LAW_POINTER(law, frozen_reals, is_convex) &jn_law_##law.row,
 	JN_SOLID_LAWS(LAW_POINTER) & jn_law_mass_spring.row,
 	&jn_law_membrane.row,
+	&jn_law_constraints.row,
+	&jn_law_rod.row,
 	&jn_law_peridynamic.row,
 	&jn_law_rigid.row,
 };

@@ -1,6 +1,6 @@
 // Whole sheets: forces and energies of the laws of cloth against what is computed by hand, and what they refuse.
 #include "base/key.h"
-#include "cloth_sample.h"
+#include "constraint_sample.h"
 #include "mesh/shape/shape.h"
 #include "support/support.h"
 

@@ -20,12 +20,12 @@ static int direction_of(const JnSheetEdge* edge) {
 	return edge->along[1] > STRAIGHT ? 1 : 2;
 }
 
-static JnClothElement spring_between(const JnSheet* sheet, int a, int b, double stiffness, double area) {
+static JnConstraint spring_between(const JnSheet* sheet, int a, int b, double stiffness, double area) {
 	const double length = vec3_distance(jn_sheet_node(sheet, a), jn_sheet_node(sheet, b));
-	return (JnClothElement){.nodes = {a, b}, .rest = {length, stiffness * area / (length * length)}};
+	return (JnConstraint){.nodes = {a, b}, .rest = {length, stiffness * area / (length * length)}};
 }
 
-static int list_structural(const JnSheet* sheet, const JnClothDef* def, JnClothElement* out) {
+static int list_structural(const JnSheet* sheet, const JnClothDef* def, JnConstraint* out) {
 	int count = 0;
 	for (int i = 0; i < sheet->edge_count; ++i) {
 		const JnSheetEdge* edge = &sheet->edges[i];
@@ -36,7 +36,7 @@ static int list_structural(const JnSheet* sheet, const JnClothDef* def, JnClothE
 	return count;
 }
 
-static int list_shear(const JnSheet* sheet, const JnClothDef* def, JnClothElement* out) {
+static int list_shear(const JnSheet* sheet, const JnClothDef* def, JnConstraint* out) {
 	int count = 0;
 	for (int i = 0; i < sheet->edge_count; ++i) {
 		const JnSheetEdge* edge = &sheet->edges[i];
@@ -78,7 +78,7 @@ static bool goes_on(const JnSheet* sheet, int node, const JnSheetEdge* first, co
 	return product < -0.9 * first->length * second->length;
 }
 
-static int list_bend(const JnSheet* sheet, const JnClothDef* def, const Fans* fans, JnClothElement* out) {
+static int list_bend(const JnSheet* sheet, const JnClothDef* def, const Fans* fans, JnConstraint* out) {
 	int count = 0;
 	for (int node = 0; node < sheet->mesh->node_count; ++node)
 		for (int i = fans->start[node]; i < fans->start[node + 1]; ++i)
@@ -92,13 +92,13 @@ static int list_bend(const JnSheet* sheet, const JnClothDef* def, const Fans* fa
 	return count;
 }
 
-static JnStatus add_group(int count, JnClothElement* elements, int first_node, double damping, JnArena* arena,
+static JnStatus add_group(int count, JnConstraint* elements, int first_node, double damping, JnArena* arena,
 						  JnGroups* out) {
 	if (count == 0) return JN_OK;
 	for (int i = 0; i < count; ++i)
 		for (int k = 0; k < 2; ++k) elements[i].nodes[k] += first_node;
 	JnGroup* group = &out->list[out->count++];
-	JN_TRY(jn_cloth_group_create(jn_cloth_kernel(JN_CLOTH_spring, 0), count, elements, arena, group));
+	JN_TRY(jn_constraint_group_create(jn_constraint_kernel(JN_CONSTRAINT_spring, 0), count, elements, arena, group));
 	group->damping = damping;
 	return JN_OK;
 }
@@ -106,7 +106,7 @@ static JnStatus add_group(int count, JnClothElement* elements, int first_node, d
 static JnStatus fill(const JnClothDef* def, const JnSheet* sheet, int first_node, JnArena* scratch, JnArena* arena,
 					 JnGroups* out) {
 	Fans fans;
-	JnClothElement* list;
+	JnConstraint* list;
 	JN_TRY(list_fans(sheet, scratch, &fans));
 	size_t pairs = 0; // of edges at a node: no thread goes on in more
 	for (int node = 0; node < sheet->mesh->node_count; ++node) {

@@ -32,11 +32,11 @@ static void invert_edges(const JnSheet* sheet, int cell, double B[4]) {
 }
 
 // Stretch or shear: the numbers behind B are the stiffnesses times the area.
-static JnStatus build_triangles(const JnSheet* sheet, JnClothKernel which, const double* stiffness, int first_node,
+static JnStatus build_triangles(const JnSheet* sheet, JnConstraintKernel which, const double* stiffness, int first_node,
 								JnArena* scratch, JnArena* arena, JnGroup* group) {
-	const JnKernel* kernel = jn_cloth_kernel(which, 0);
+	const JnKernel* kernel = jn_constraint_kernel(which, 0);
 	const int count = sheet->mesh->cell_count;
-	JnClothElement* elements;
+	JnConstraint* elements;
 	JN_NEW(scratch, elements, count);
 	for (int cell = 0; cell < count; ++cell) {
 		for (int i = 0; i < 3; ++i) elements[cell].nodes[i] = first_node + sheet->mesh->cells[3 * (ptrdiff_t)cell + i];
@@ -44,7 +44,7 @@ static JnStatus build_triangles(const JnSheet* sheet, JnClothKernel which, const
 		for (int k = 4; k < kernel->rest_reals; ++k)
 			elements[cell].rest[k] = stiffness[k - 4] * sheet->cells[cell].area;
 	}
-	return jn_cloth_group_create(kernel, count, elements, arena, group);
+	return jn_constraint_group_create(kernel, count, elements, arena, group);
 }
 
 // Sine and cosine of the angle between the wings at rest, as in bend.h.
@@ -66,13 +66,13 @@ static void measure_angle(const JnSheet* sheet, const JnSheetEdge* edge, double 
 
 static JnStatus build_hinges(const JnSheet* sheet, const double bend[2], int first_node, JnArena* scratch,
 							 JnArena* arena, JnGroup* group) {
-	JnClothElement* elements;
+	JnConstraint* elements;
 	int count = 0;
 	JN_NEW(scratch, elements, sheet->edge_count);
 	for (int i = 0; i < sheet->edge_count; ++i) {
 		const JnSheetEdge* edge = &sheet->edges[i];
 		if (edge->wings[0] < 0 || edge->wings[1] < 0) continue;
-		JnClothElement* element = &elements[count++];
+		JnConstraint* element = &elements[count++];
 		const int nodes[4] = {edge->wings[0], edge->wings[1], edge->nodes[1], edge->nodes[0]};
 		for (int k = 0; k < 4; ++k) element->nodes[k] = first_node + nodes[k];
 		measure_angle(sheet, edge, element->rest);
@@ -80,16 +80,16 @@ static JnStatus build_hinges(const JnSheet* sheet, const double bend[2], int fir
 		const double B = bend[0] * across_u * across_u + bend[1] * across_v * across_v;
 		element->rest[2] = B * edge->length * edge->length / edge->area;
 	}
-	return jn_cloth_group_create(jn_cloth_kernel(JN_CLOTH_bend, 0), count, elements, arena, group);
+	return jn_constraint_group_create(jn_constraint_kernel(JN_CONSTRAINT_bend, 0), count, elements, arena, group);
 }
 
 static JnStatus fill(const JnClothDef* def, const JnSheet* sheet, int first_node, JnArena* scratch, JnArena* arena,
 					 JnGroups* out) {
 	JnGroup* group = out->list;
-	JN_TRY(build_triangles(sheet, JN_CLOTH_stretch, def->stretch, first_node, scratch, arena, group));
+	JN_TRY(build_triangles(sheet, JN_CONSTRAINT_stretch, def->stretch, first_node, scratch, arena, group));
 	group++->damping = def->stretch_damping;
 	if (def->shear > 0) {
-		JN_TRY(build_triangles(sheet, JN_CLOTH_shear, &def->shear, first_node, scratch, arena, group));
+		JN_TRY(build_triangles(sheet, JN_CONSTRAINT_shear, &def->shear, first_node, scratch, arena, group));
 		group++->damping = def->shear_damping;
 	}
 	if ((def->bend[0] > 0 || def->bend[1] > 0) && sheet->mesh->cell_count > 1) {

@@ -4,8 +4,8 @@
 ///   K = k ((1 - L/l) (I - e e^T) + e e^T),   e the direction between the nodes,
 ///
 /// is definite where it is stretched; where it is compressed, its definite form leaves the first term out.
-#ifndef JN_FORCE_CLOTH_SPRING_H
-#define JN_FORCE_CLOTH_SPRING_H
+#ifndef JN_FORCE_CONSTRAINT_SPRING_H
+#define JN_FORCE_CONSTRAINT_SPRING_H
 
 #include "math/mat3.h"
 

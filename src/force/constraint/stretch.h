@@ -4,10 +4,10 @@
 ///   E = A/2 (k_u (|w_u| - 1)^2 + k_v (|w_v| - 1)^2)
 ///
 /// d2E/dw_r2 = A k_r ((1 - 1/|w_r|) (I - e e^T) + e e^T), whose definite form leaves out the first term under compression.
-#ifndef JN_FORCE_CLOTH_STRETCH_H
-#define JN_FORCE_CLOTH_STRETCH_H
+#ifndef JN_FORCE_CONSTRAINT_STRETCH_H
+#define JN_FORCE_CONSTRAINT_STRETCH_H
 
-#include "force/cloth/strain.h"
+#include "force/constraint/strain.h"
 
 enum { STRETCH_STIFFNESS = STRAIN_REALS, STRETCH_REALS = STRETCH_STIFFNESS + 2 }; // A k_u, A k_v
 

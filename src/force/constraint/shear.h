@@ -7,10 +7,10 @@
 ///
 /// Its eigenvalues are s and -s, twice each, and those of [[|p|^2 + s, -|p||m|], [-|p||m|, |m|^2 - s]], whose determinant is
 /// -3 s^2: one of them is never positive (Kim 2020 finds the same in another basis). The definite form clamps these.
-#ifndef JN_FORCE_CLOTH_SHEAR_H
-#define JN_FORCE_CLOTH_SHEAR_H
+#ifndef JN_FORCE_CONSTRAINT_SHEAR_H
+#define JN_FORCE_CONSTRAINT_SHEAR_H
 
-#include "force/cloth/strain.h"
+#include "force/constraint/strain.h"
 
 enum { SHEAR_STIFFNESS = STRAIN_REALS, SHEAR_REALS = SHEAR_STIFFNESS + 1 }; // A k
 

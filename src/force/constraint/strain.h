@@ -3,8 +3,8 @@
 /// 1998, section 4.1). With the edges d_0, d_1 from node 2,
 ///
 ///   w_u = d_0 B_00 + d_1 B_10,   w_v = d_0 B_01 + d_1 B_11,   B = (edges at rest in the frame u, v)^-1.
-#ifndef JN_FORCE_CLOTH_STRAIN_H
-#define JN_FORCE_CLOTH_STRAIN_H
+#ifndef JN_FORCE_CONSTRAINT_STRAIN_H
+#define JN_FORCE_CONSTRAINT_STRAIN_H
 
 #include "math/mat3.h"
 

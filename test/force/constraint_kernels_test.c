@@ -1,15 +1,15 @@
-// Every kernel of cloth by itself: derivatives, products, definiteness, invariance, widths.
-#include "cloth_sample.h"
+// Every kernel of constraints by itself: derivatives, products, definiteness, invariance, widths.
+#include "constraint_sample.h"
 #include "math/wide_angle.h"
 
 // Elements measure 0.1 m: truncation (h/0.1)^2 = 1e-10 times factors of order 10, rounding 1e-16 * 0.1/h = 1e-11.
 static const double STEP = 1e-6, TOLERANCE = 1e-6;
 
-static void shift(ClothSample* s, int k, double by) {
+static void shift(ConstraintSample* s, int k, double by) {
 	for (int e = 0; e < SAMPLE_ELEMENTS; e++) s->x[e * s->reals + k] += by;
 }
 
-static void check_force(ClothSample* s, JnClothKernel which, ClothState state) {
+static void check_force(ConstraintSample* s, JnConstraintKernel which, ClothState state) {
 	(void)which;
 	double force[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS], plus[SAMPLE_ELEMENTS], minus[SAMPLE_ELEMENTS];
 	const Sample view = cloth_view(s);
@@ -37,7 +37,7 @@ static double scale_of(SampleMatrix K, int reals) {
 	return scale;
 }
 
-static void check_tangent(ClothSample* s, JnClothKernel which, ClothState state) {
+static void check_tangent(ConstraintSample* s, JnConstraintKernel which, ClothState state) {
 	(void)which;
 	static SampleMatrix K[SAMPLE_ELEMENTS];
 	double plus[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS], minus[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS];
@@ -61,9 +61,9 @@ static void tangent_is_minus_the_gradient_of_force(void** unused) {
 	for_all_cloth(check_tangent);
 }
 
-static void check_product(ClothSample* s, JnClothKernel which, ClothState state) {
+static void check_product(ConstraintSample* s, JnConstraintKernel which, ClothState state) {
 	static SampleMatrix K[SAMPLE_ELEMENTS];
-	double p[SAMPLE_ELEMENTS * 12], out[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS];
+	double p[SAMPLE_ELEMENTS * 18], out[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS];
 	uint64_t seed = 17 + (uint64_t)which;
 	const Sample view = cloth_view(s);
 	for (int k = 0; k < SAMPLE_ELEMENTS * s->reals; k++) p[k] = random_real(&seed);
@@ -87,7 +87,7 @@ static void product_is_that_of_the_assembled_tangent(void** unused) {
 
 static int indefinite_count;
 
-static void check_definite(ClothSample* s, JnClothKernel which, ClothState state) {
+static void check_definite(ConstraintSample* s, JnConstraintKernel which, ClothState state) {
 	(void)which;
 	static SampleMatrix K[SAMPLE_ELEMENTS], V;
 	double values[SAMPLE_MOST_REALS];
@@ -118,7 +118,7 @@ static void definite_shear_clamps_the_spectrum_of_the_exact_one(void** unused) {
 	(void)unused;
 	static SampleMatrix K[SAMPLE_ELEMENTS], D[SAMPLE_ELEMENTS], V;
 	for (int state = 0; state < CLOTH_STATES; state++) {
-		ClothSample s = cloth_sample(JN_CLOTH_shear, 0, state, 3);
+		ConstraintSample s = constraint_sample(JN_CONSTRAINT_shear, 0, state, 3);
 		const int width = s.group.kernel->width;
 		for (int k = 0; k < 4 * width * s.group.batches; k++) {
 			const int batch = k / (4 * width), at = k % (4 * width);
@@ -140,7 +140,7 @@ static void definite_shear_clamps_the_spectrum_of_the_exact_one(void** unused) {
 	}
 }
 
-static void check_motion(ClothSample* s, JnClothKernel which, ClothState state) {
+static void check_motion(ConstraintSample* s, JnConstraintKernel which, ClothState state) {
 	(void)which;
 	double before[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS], after[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS], R[3][3];
 	uint64_t seed = 5;
@@ -167,7 +167,7 @@ static void forces_turn_with_the_body_and_ignore_its_place(void** unused) {
 	for_all_cloth(check_motion);
 }
 
-static void check_balance(ClothSample* s, JnClothKernel which, ClothState state) {
+static void check_balance(ConstraintSample* s, JnConstraintKernel which, ClothState state) {
 	(void)which;
 	double f[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS];
 	const Sample view = cloth_view(s);
@@ -181,8 +181,8 @@ static void check_balance(ClothSample* s, JnClothKernel which, ClothState state)
 			net[a] += f[e][k];
 			torque[a] += x[b] * f[e][3 * node + c] - x[c] * f[e][3 * node + b];
 		}
-		cloth_expect(largest(net, 3), 0, 1e-14 * 12 * scale, "net force", s, state);
-		cloth_expect(largest(torque, 3), 0, 1e-14 * 12 * scale, "net torque", s, state);
+		cloth_expect(largest(net, 3), 0, 1e-14 * 18 * scale, "net force", s, state);
+		cloth_expect(largest(torque, 3), 0, 1e-14 * 18 * scale, "net torque", s, state);
 	}
 }
 
@@ -192,7 +192,7 @@ static void forces_and_torques_balance(void** unused) {
 }
 
 /// Energies, forces and both tangents one behind the other.
-static int collect(ClothSample* s, double* out) {
+static int collect(ConstraintSample* s, double* out) {
 	static SampleMatrix K[SAMPLE_ELEMENTS];
 	double f[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS];
 	const Sample view = cloth_view(s);
@@ -208,13 +208,13 @@ static int collect(ClothSample* s, double* out) {
 	return count;
 }
 
-static void check_widths(ClothSample* s, JnClothKernel which, ClothState state) {
-	static double reference[2000], other[2000];
+static void check_widths(ConstraintSample* s, JnConstraintKernel which, ClothState state) {
+	static double reference[4000], other[4000];
 	if (s->group.kernel->width != 4) return;
 	const int count = collect(s, reference);
 	for (int width = 8; width >= 2; width -= 6) {
-		if (jn_cloth_kernel(which, width) == NULL) continue;
-		ClothSample wide = cloth_sample(which, width, state, (uint64_t)(100 * which + state));
+		if (jn_constraint_kernel(which, width) == NULL) continue;
+		ConstraintSample wide = constraint_sample(which, width, state, (uint64_t)(100 * which + state));
 		assert_int_equal(collect(&wide, other), count);
 		for (int k = 0; k < count; k++) // 2 lanes round a b + c twice; stiffnesses of order 1 to 1e3
 			cloth_expect(other[k], reference[k], width == 8 ? 0 : 1e-11, "another width's number", &wide, state);

@@ -15,10 +15,10 @@
 ///   T_ww = -S_tn/h^2    T_2w = q S_tn/h^2 - n e^T/(h L)    T_22 = -q^2 S_tn/h^2 + q S_en/(h L) - S_tn/(2 L^2)
 ///
 /// K = k (g g^T + (theta - theta_0) T). The definite form is k g g^T. Nodes: wing, wing, 2, 3 of the drawing.
-#ifndef JN_FORCE_CLOTH_BEND_H
-#define JN_FORCE_CLOTH_BEND_H
+#ifndef JN_FORCE_CONSTRAINT_BEND_H
+#define JN_FORCE_CONSTRAINT_BEND_H
 
-#include "force/cloth/strain.h"
+#include "force/constraint/strain.h"
 #include "math/wide_angle.h"
 
 enum { BEND_NODES = 4, BEND_SINE = 0, BEND_COSINE = 1, BEND_STIFFNESS = 2, BEND_REALS = 3 }; // of theta_0; k
