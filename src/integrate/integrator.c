@@ -75,8 +75,13 @@ JnStatus jn_acceleration(JnIntegrator* self, JnSystem* sys, JnState* s, JnVec a)
 	JnMatrix* mass = NULL;
 	JN_TRY(sys->ops->matrix(sys, (JnShift){.mass = 1}, &mass));
 	JN_TRY(sys->ops->force(sys, s, f));
+	if (sys->mass_is_diagonal) {
+		JN_TRY(mass->ops->solve(mass, f, a));
+		sys->ops->prescribe(sys, s, a); // rewrites the held entries of s with the values that they have
+		return isfinite(space->ops->max(space, a)) ? JN_OK : JN_NOT_FINITE;
+	}
 	space->ops->combine(space, a, 0, NULL);
-	sys->ops->prescribe(sys, s, a); // rewrites the held entries of s with the values that they have
+	sys->ops->prescribe(sys, s, a);
 	mass->ops->apply(mass, a, inertia);
 	space->ops->combine(space, f, 2, (JnTerm[]){{1, f}, {-1, inertia}});
 	sys->ops->hold(sys, f);

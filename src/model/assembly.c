@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/parallel.h"
+#include "model/scatter.h"
 
 // Elements in a chunk: small enough that its forces or blocks stay in the cache between kernel and scatter, and a
 // multiple of every batch width, so that chunks do not depend on it.
@@ -25,10 +26,6 @@ struct JnAssembly {
 	double** buffers; // one a thread, of a tangent chunk
 	double* chunk_energy;
 };
-
-typedef struct Range {
-	int low, high; // nodes low <= node < high
-} Range;
 
 static int batches_in(int elements, const JnGroup* group) {
 	return elements / group->kernel->width;
@@ -97,99 +94,48 @@ JnStatus jn_assembly_create(JnModel* model, JnAssembly** out) {
 	return JN_OK;
 }
 
-static bool touches(const GroupMap* map, int first, int last, Range range) {
+static bool touches(const GroupMap* map, int first, int last, JnNodeRange range) {
 	for (int batch = first; batch < last; ++batch)
 		if (map->low[batch] < range.high && map->high[batch] >= range.low) return true;
 	return false;
 }
 
-// f += scale * what an element has for each of its nodes.
-static void scatter_force(const JnGroup* group, int batch, const double* element, double scale, Range range,
-						  double* f) {
-	const int width = group->kernel->width, lanes = lanes_in(group, batch);
-	for (int lane = 0; lane < lanes; ++lane)
-		for (int i = 0; i < group->kernel->nodes; ++i) {
-			const int node = node_at(group, batch, i, lane);
-			if (node < range.low || node >= range.high) continue;
-			const double* from = element + 3 * i * width + lane;
-			double* to = f + 3 * (size_t)node;
-			to[0] += scale * from[0];
-			to[1] += scale * from[width];
-			to[2] += scale * from[2 * width];
-		}
+static JnScatter* scatter_of(const JnGroup* group) {
+#if defined(__x86_64__)
+	const int width = group->kernel->width;
+	return width == 8 ? jn_scatter_8 : width == 4 ? jn_scatter_4 : jn_scatter_2;
+#else
+	(void)group;
+	return jn_scatter_2;
+#endif
 }
 
-static void put(double a, double b, double c, double* to) {
-	to[0] = a;
-	to[1] = b;
-	to[2] = c;
-}
-
-// The same for elements of two nodes: the same sums in the same order, and faster. Bonds stand in runs with the same first
-// node, whose sum stays in registers: in memory, each would wait for the one before. No arrays: compilers keep those in
-// memory.
-static void scatter_pairs(const JnGroup* group, int batch, const double* element, double scale, Range range,
-						  double* f) {
-	const int width = group->kernel->width, lanes = lanes_in(group, batch);
-	const int *first = group->nodes + 2 * (size_t)batch * (size_t)width, *second = first + width;
-	const double *a = element, *b = a + width, *c = b + width, *d = c + width, *e = d + width, *g = e + width;
-	int open = -1; // node whose sum is s0, s1, s2, to be put to `at`
-	double s0 = 0, s1 = 0, s2 = 0, nowhere[3] = {0}, *at = nowhere;
-	for (int lane = 0; lane < lanes; ++lane) {
-		const int i = first[lane], j = second[lane];
-		double* to = f + 3 * (size_t)j;
-		if (i != open) {
-			put(s0, s1, s2, at);
-			open = i;
-			at = i >= range.low && i < range.high ? f + 3 * (size_t)i : nowhere;
-			s0 = at[0];
-			s1 = at[1];
-			s2 = at[2];
-		}
-		s0 += scale * a[lane];
-		s1 += scale * b[lane];
-		s2 += scale * c[lane];
-		if (j < range.low || j >= range.high) continue;
-		to[0] += scale * d[lane];
-		to[1] += scale * e[lane];
-		to[2] += scale * g[lane];
-	}
-	put(s0, s1, s2, at);
-}
-
-// Batches first <= batch < last, whose numbers stand in `buffer`.
-static void scatter_chunk(const JnGroup* group, int first, int last, const double* buffer, double scale, Range range,
-						  double* f) {
-	const int stride = 3 * group->kernel->nodes * group->kernel->width;
-	for (int batch = first; batch < last; ++batch, buffer += stride)
-		if (group->kernel->nodes == 2)
-			scatter_pairs(group, batch, buffer, scale, range, f);
-		else
-			scatter_force(group, batch, buffer, scale, range, f);
-}
-
-static void add_forces(const JnAssembly* assembly, const double* x, Range range, double* buffer, double* f) {
+static void add_forces(const JnAssembly* assembly, const double* x, JnNodeRange range, double* buffer, double* f) {
 	for (int g = 0; g < assembly->model->group_count; ++g) {
 		const JnGroup* group = &assembly->model->groups[g];
 		const int step = batches_in(FORCE_CHUNK, group);
 		for (int first = 0; first < group->batches; first += step) {
 			const int last = first + step < group->batches ? first + step : group->batches;
-			if (!touches(&assembly->maps[g], first, last, range)) continue;
+			if (!range.is_all && !touches(&assembly->maps[g], first, last, range)) continue;
 			group->kernel->force(group, first, last, x, buffer);
-			scatter_chunk(group, first, last, buffer, 1, range, f);
+			scatter_of(group)(group, first, last, buffer, 1, range, f);
 		}
 	}
 }
 
 // The nodes of thread `t` of `team`.
-static Range range_of(const JnAssembly* assembly, int t, int team) {
+static JnNodeRange range_of(const JnAssembly* assembly, int t, int team) {
 	const long nodes = assembly->model->node_count;
-	return (Range){.low = (int)(nodes * t / team), .high = (int)(nodes * (t + 1) / team)};
+	return (JnNodeRange){.low = (int)(nodes * t / team), .high = (int)(nodes * (t + 1) / team), .is_all = team == 1};
 }
 
 void jn_assembly_force(JnAssembly* assembly, const double* x, double* f) {
 	const int team = jn_threads_for((size_t)assembly->elements, FORCE_GRAIN, assembly->model->threads);
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
+	if (team == 1) { // a region of one thread costs as much as a hundred springs
+		add_forces(assembly, x, range_of(assembly, 0, 1), assembly->buffers[0], f);
+		return;
+	}
+#pragma omp parallel for schedule(static) num_threads(team)
 	for (int t = 0; t < team; ++t) add_forces(assembly, x, range_of(assembly, t, team), assembly->buffers[t], f);
 }
 
@@ -200,7 +146,7 @@ typedef struct Product {
 	double* y;
 } Product;
 
-static void add_products(const JnAssembly* assembly, const Product* product, Range range, double* buffer) {
+static void add_products(const JnAssembly* assembly, const Product* product, JnNodeRange range, double* buffer) {
 	const JnTangentAt* at = &product->tangent;
 	for (int g = 0; g < assembly->model->group_count; ++g) {
 		const JnGroup* group = &assembly->model->groups[g];
@@ -208,9 +154,9 @@ static void add_products(const JnAssembly* assembly, const Product* product, Ran
 		const double scale = product->scale * (at->weight != NULL ? at->weight[g] : 1);
 		for (int first = 0; first < group->batches && scale != 0; first += step) {
 			const int last = first + step < group->batches ? first + step : group->batches;
-			if (!touches(&assembly->maps[g], first, last, range)) continue;
+			if (!range.is_all && !touches(&assembly->maps[g], first, last, range)) continue;
 			group->kernel->product(group, first, last, at->x, at->definite == JN_DEFINITE, product->p, buffer);
-			scatter_chunk(group, first, last, buffer, scale, range, product->y);
+			scatter_of(group)(group, first, last, buffer, scale, range, product->y);
 		}
 	}
 }
@@ -218,7 +164,11 @@ static void add_products(const JnAssembly* assembly, const Product* product, Ran
 void jn_assembly_product(JnAssembly* assembly, JnTangentAt tangent, double scale, const double* p, double* y) {
 	const Product product = {.tangent = tangent, .scale = scale, .p = p, .y = y};
 	const int team = jn_threads_for((size_t)assembly->elements, FORCE_GRAIN, assembly->model->threads);
-#pragma omp parallel for schedule(static) num_threads(team) if (team > 1)
+	if (team == 1) {
+		add_products(assembly, &product, range_of(assembly, 0, 1), assembly->buffers[0]);
+		return;
+	}
+#pragma omp parallel for schedule(static) num_threads(team)
 	for (int t = 0; t < team; ++t) add_products(assembly, &product, range_of(assembly, t, team), assembly->buffers[t]);
 }
 
@@ -232,7 +182,7 @@ static void add_transposed(double* to, const double* from, int width, double wei
 }
 
 typedef struct Target {
-	Range range;
+	JnNodeRange range;
 	double weight;
 	double* blocks;
 } Target;
@@ -288,7 +238,7 @@ static void add_tangents(const JnAssembly* assembly, const double* x, JnDefinite
 	}
 }
 
-static void clear_columns(const JnPattern* pattern, Range range, double* blocks) {
+static void clear_columns(const JnPattern* pattern, JnNodeRange range, double* blocks) {
 	const size_t first = 9 * (size_t)pattern->column_start[range.low],
 				 last = 9 * (size_t)pattern->column_start[range.high];
 	memset(blocks + first, 0, (last - first) * sizeof *blocks);

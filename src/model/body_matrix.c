@@ -4,6 +4,7 @@
 
 #include "base/log.h"
 #include "base/timer.h"
+#include "model/damping.h"
 
 enum { SLOT = 0 }; // of each body's solver, which keeps one factor
 
@@ -76,10 +77,11 @@ void jn_body_matrices_release(JnBodyMatrices* matrices) {
 }
 
 // blocks = m M + d D + k K of one body, K standing in them.
-static void combine(const JnModelSystem* sys, int index, JnShift shift, JnBodyMatrix* matrix) {
+static void combine(JnModelSystem* sys, int index, JnShift shift, JnBodyMatrix* matrix) {
 	const JnModel* model = sys->model;
 	const int first = model->pattern.column_start[model->bodies[index].first_node];
-	const double* damping = sys->damping != NULL ? sys->damping + 9 * (size_t)first : NULL;
+	const double* all = shift.damping != 0 ? jn_damping_blocks(sys) : NULL;
+	const double* damping = all != NULL ? all + 9 * (size_t)first : NULL;
 	for (size_t k = 0; k < 9 * (size_t)matrix->pattern.blocks; ++k) {
 		matrix->blocks[k] *= shift.stiffness;
 		if (damping != NULL) matrix->blocks[k] += shift.damping * damping[k];
@@ -93,7 +95,7 @@ static void combine(const JnModelSystem* sys, int index, JnShift shift, JnBodyMa
 }
 
 void jn_body_matrices_fill(JnBodyMatrices* matrices, const bool* wanted, JnShift shift, const double* x) {
-	const JnModelSystem* sys = matrices->sys;
+	JnModelSystem* sys = matrices->sys;
 	const int count = sys->model->body_count;
 	const double began = jn_seconds();
 	for (int b = 0; b < count; ++b)

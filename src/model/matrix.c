@@ -3,6 +3,7 @@
 // exact tangent of a wind the matrix is not symmetric, and LU takes the place of Cholesky.
 #include <string.h>
 
+#include "model/damping.h"
 #include "model/repulsion.h"
 #include "model/system.h"
 #include "model/wind.h"
@@ -24,12 +25,12 @@ static void add_scalars(const JnPattern* pattern, double scale, const double* sc
 }
 
 // scratch = m M + d D + k K, where K stands in `stiffness` (which may be scratch itself).
-static void combine(const JnModelSystem* sys, JnShift shift, const double* stiffness) {
+static void combine(JnModelSystem* sys, JnShift shift, const double* stiffness) {
 	const JnPattern* pattern = &sys->model->pattern;
 	const size_t entries = 9 * (size_t)pattern->blocks;
 	for (size_t k = 0; k < entries; ++k) sys->scratch[k] = shift.stiffness * stiffness[k];
-	if (sys->damping != NULL && shift.damping != 0)
-		for (size_t k = 0; k < entries; ++k) sys->scratch[k] += shift.damping * sys->damping[k];
+	const double* damping = shift.damping != 0 ? jn_damping_blocks(sys) : NULL;
+	for (size_t k = 0; k < entries && damping != NULL; ++k) sys->scratch[k] += shift.damping * damping[k];
 	add_scalars(pattern, shift.mass, sys->model->mass, sys->scratch);
 	if (sys->alpha_mass != NULL) add_scalars(pattern, shift.damping, sys->alpha_mass, sys->scratch);
 }
@@ -80,7 +81,13 @@ static JnStatus factor(JnModelMatrix* matrix) {
 	return status;
 }
 
-static void divide_by_mass(const JnModel* model, double mass, const double* rhs, double* out) {
+static void divide_by_mass(const JnModelSystem* sys, double mass, const double* rhs, double* out) {
+	const JnModel* model = sys->model;
+	if (mass == 1) {
+		sys->algebra->multiply(sys->base.space->length, rhs, sys->inverse_mass, out);
+		for (int i = 0; i < model->held_count; ++i) out[model->held_list[i].entry] = 0;
+		return;
+	}
 	for (int k = 0; k < 3 * model->node_count; ++k)
 		out[k] = model->held[k] ? 0 : rhs[k] / (mass * model->nodal_mass[k / 3]);
 }
@@ -99,7 +106,7 @@ static JnStatus solve_by(JnMatrix* base, Solve* solve, const double* rhs, JnVec 
 	JnModelMatrix* matrix = (JnModelMatrix*)base;
 	JnModelSystem* sys = (JnModelSystem*)base->sys;
 	if (!depends_on_state(matrix->shift) && sys->model->mass_is_diagonal) {
-		divide_by_mass(sys->model, matrix->shift.mass, rhs, out);
+		divide_by_mass(sys, matrix->shift.mass, rhs, out);
 		return JN_OK;
 	}
 	++sys->base.report->solves;
@@ -131,15 +138,6 @@ static void apply_stiffness(const JnModelSystem* sys, JnDefinite definite, doubl
 	if (sys->model->repulsion != NULL) jn_repulsion_product(sys->model->repulsion, definite, scale, in, out);
 }
 
-void jn_model_apply_damping(const JnModelSystem* sys, double scale, const double* in, double* out) {
-	const JnTangentAt at = {.x = sys->damping_x, .definite = JN_DEFINITE, .weight = sys->beta};
-	if (sys->damping == NULL) return;
-	if (sys->model->is_matrix_free)
-		jn_assembly_product(sys->assembly, at, scale, in, out);
-	else
-		jn_blocks_apply(&sys->model->pattern, sys->damping, scale, in, out, sys->model->threads);
-}
-
 static void apply_shifted(const JnModelSystem* sys, JnShift shift, JnDefinite definite, const double* in, JnVec out) {
 	const JnModel* model = sys->model;
 	memset(out, 0, 3 * (size_t)model->node_count * sizeof *out);
@@ -147,9 +145,8 @@ static void apply_shifted(const JnModelSystem* sys, JnShift shift, JnDefinite de
 		for (int k = 0; k < 3 * model->node_count; ++k) out[k] = shift.mass * model->nodal_mass[k / 3] * in[k];
 	else if (shift.mass != 0)
 		jn_scalars_apply(&model->pattern, model->mass, shift.mass, in, out, model->threads);
-	if (shift.damping != 0 && sys->alpha_mass != NULL)
-		jn_scalars_apply(&model->pattern, sys->alpha_mass, shift.damping, in, out, model->threads);
-	if (shift.damping != 0) jn_model_apply_damping(sys, shift.damping, in, out);
+	if (shift.damping != 0) jn_damping_apply_mass(sys, shift.damping, in, out);
+	if (shift.damping != 0) jn_damping_apply(sys, shift.damping, in, out);
 	if (shift.stiffness != 0) apply_stiffness(sys, definite, shift.stiffness, in, out);
 	if (sys->unsymmetric != NULL) jn_wind_apply(model->wind, shift, in, out);
 }

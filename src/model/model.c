@@ -152,7 +152,7 @@ static JnStatus build_pattern(const JnModelDef* def, JnModel* model, JnArena* sc
 	int count = model->body_count;
 	for (int b = 0; b < model->body_count; ++b) {
 		const JnBody* body = &model->bodies[b];
-		for (int g = 0; g < body->group_count && body->mesh.shape >= JN_SOLID_SHAPE_COUNT; ++g)
+		for (int g = 0; g < body->group_count && body->law->build != jn_solid_build; ++g)
 			JN_TRY(list_elements(&model->groups[body->first_group + g], scratch, &lists[count++]));
 	}
 	return jn_pattern_create(model->node_count, count, lists, &model->arena, &model->pattern);

@@ -39,7 +39,7 @@ typedef struct JnModelObstacle {
 /// One coordinate that does not follow the equations of motion.
 typedef struct JnHeld {
 	int entry;               ///< 3 * node + axis
-	const JnVariant* motion; ///< NULL: stays at rest
+	const JnVariant* motion; ///< NULL: stays at rest, or follows a guide or an input
 } JnHeld;
 
 struct JnModel {
@@ -56,8 +56,12 @@ struct JnModel {
 	double gravity[3];
 	bool* held; ///< 3 * node_count
 	int held_count;
-	JnHeld* held_list;   ///< ascending entries
-	bool is_matrix_free; ///< K and D act by products; the pattern has the diagonal blocks alone
+	JnHeld* held_list; ///< ascending entries
+	int guide_count;
+	struct JnGuide* guides; ///< guide.h
+	int input_count;
+	struct JnInput* inputs; ///< input.h
+	bool is_matrix_free;    ///< K and D act by products; the pattern has the diagonal blocks alone
 	JnPattern pattern;
 	double* mass;       ///< one number a block of the pattern [kg]
 	double* nodal_mass; ///< row sums of `mass`, node_count [kg]

@@ -3,6 +3,7 @@
 #include "force/wind.h"
 #include "jounce/model.h"
 #include "mesh/shape/shape.h"
+#include "model/guide.h"
 #include "model/load.h"
 #include "model/motion.h"
 
@@ -45,6 +46,17 @@ static const JnKey drive_keys[] = {
 	 .field = offsetof(JnDriveDef, others),
 	 .names = held_or_free,
 	 .meaning = "what the axes without a motion do"},
+	{.name = "along",
+	 .kind = JN_OPTIONAL,
+	 .field = offsetof(JnDriveDef, along),
+	 .keys = jn_along_keys,
+	 .size = sizeof(JnAlongDef),
+	 .meaning = "in place of x, y and z: frames of a thread run along a curve, such as a needle"},
+	{.name = "input",
+	 .kind = JN_TEXT,
+	 .field = offsetof(JnDriveDef, input),
+	 .meaning = "in place of x, y and z: a name by which the program that steps the scene sets the displacement "
+				"(jn_sim_input)"},
 	{0},
 };
 

@@ -7,6 +7,7 @@
 
 #include "base/log.h"
 #include "base/space.h"
+#include "model/damping.h"
 #include "model/load.h"
 #include "model/repulsion.h"
 #include "model/stretch.h"
@@ -14,15 +15,6 @@
 
 static JnModelSystem* of(JnSystem* sys) {
 	return (JnModelSystem*)sys;
-}
-
-static void make_damping(JnModelSystem* sys, const double* x, uint64_t stamp) {
-	if (sys->damping == NULL) return;
-	jn_assembly_tangent(sys->assembly, x, JN_DEFINITE, sys->beta, sys->damping);
-	if (sys->damping_x != NULL) memcpy(sys->damping_x, x, sys->base.space->length * sizeof *x);
-	sys->damping_stamp = stamp;
-	++sys->base.report->tangents;
-	jn_model_matrix_expire(sys);
 }
 
 static JnStatus update_internal(JnModelSystem* sys, const JnState* s) {
@@ -44,32 +36,9 @@ static double typical_force(JnModelSystem* sys) {
 	return fmax(fmax(fmax(weight, inside), outside), 1e-6 / DBL_EPSILON * sys->base.force_floor);
 }
 
-// Times are sums of steps: one that ought to begin at damping_start may begin a few roundings before it.
-static void switch_damping(JnModelSystem* sys, double t) {
-	const bool acts = t >= sys->damping_start * (1 - 1e-9);
-	double* const damping = acts ? sys->damping_store : NULL;
-	double* const alpha_mass = acts ? sys->model->alpha_mass : NULL;
-	if (damping == sys->damping && alpha_mass == sys->alpha_mass) return;
-	sys->damping = damping;
-	sys->alpha_mass = alpha_mass;
-	sys->damping_stamp = 0;
-	jn_model_matrix_expire(sys);
-}
-
 static JnStatus begin(JnSystem* base, const JnState* start) {
 	JnModelSystem* sys = of(base);
-	switch_damping(sys, start->t);
-	if (sys->damping_at_rest && sys->damping != NULL && sys->damping_stamp == 0) {
-		jn_assembly_freeze(sys->assembly, sys->model->rest);
-		make_damping(sys, sys->model->rest, start->stamp);
-	}
-	const bool damping_follows = sys->damping != NULL && !sys->damping_at_rest;
-	if (jn_assembly_freeze(sys->assembly, start->x)) {
-		sys->internal_stamp = 0;
-		sys->stiffness_stamp = 0;
-		if (damping_follows) sys->damping_stamp = 0;
-	}
-	if (damping_follows && sys->damping_stamp != start->stamp) make_damping(sys, start->x, start->stamp);
+	jn_damping_begin(sys, start);
 	if (base->force_scale == 0) JN_TRY(update_internal(sys, start));
 	if (sys->internal_stamp == start->stamp)
 		base->force_scale = typical_force(sys); // else as before: no force for this alone
@@ -77,14 +46,14 @@ static JnStatus begin(JnSystem* base, const JnState* start) {
 }
 
 static void prescribe(JnSystem* base, JnState* s, JnVec a) {
-	const JnModel* model = of(base)->model;
+	JnModelSystem* sys = of(base);
+	const JnModel* model = sys->model;
+	const JnMotionValue* values = jn_hold_at(model, &sys->hold, s->t);
 	for (int i = 0; i < model->held_count; ++i) {
-		const JnHeld* held = &model->held_list[i];
-		JnMotionValue value = {0};
-		if (held->motion != NULL) value = ((const JnMotionType*)held->motion->row)->at(held->motion->options, s->t);
-		s->x[held->entry] = model->rest[held->entry] + value.x;
-		s->v[held->entry] = value.v;
-		if (a != NULL) a[held->entry] = value.a;
+		const int entry = model->held_list[i].entry;
+		s->x[entry] = values[i].x;
+		s->v[entry] = values[i].v;
+		if (a != NULL) a[entry] = values[i].a;
 	}
 }
 
@@ -97,12 +66,15 @@ static JnStatus force(JnSystem* base, const JnState* s, JnVec f) {
 	JnModelSystem* sys = of(base);
 	const JnModel* model = sys->model;
 	JN_TRY(update_internal(sys, s));
-	const JnTerm terms[] = {{1, sys->internal}, {1, sys->external}, {1, sys->load}};
-	base->space->ops->combine(base->space, f, sys->load != NULL ? 3 : 2, terms);
+	JnTerm terms[2 + JN_LOAD_COUNT] = {{1, sys->internal}, {1, sys->external}};
+	int count = 2;
+	for (int i = 0; i < JN_LOAD_COUNT; ++i)
+		if (sys->load[i] != NULL) terms[count++] = (JnTerm){1, sys->load[i]};
+	base->space->ops->combine(base->space, f, count, terms);
 	if (model->wind != NULL) jn_wind_force(model->wind, s, f);
-	if (sys->alpha_mass != NULL) jn_scalars_apply(&model->pattern, sys->alpha_mass, -1, s->v, f, model->threads);
-	if (sys->damping_is_current && sys->damping_stamp != s->stamp) make_damping(sys, s->x, s->stamp);
-	jn_model_apply_damping(sys, -1, s->v, f);
+	jn_damping_apply_mass(sys, -1, s->v, f);
+	jn_damping_follow(sys, s);
+	jn_damping_apply(sys, -1, s->v, f);
 	return JN_OK;
 }
 
@@ -119,11 +91,12 @@ static double gravity_potential(const JnModel* model, const double* x) {
 	return sum + jn_loads_potential(model, x);
 }
 
-// Potential of the load: -load . (x - X).
+// Potential of the loads: -load . (x - X).
 static double load_potential(const JnModelSystem* sys, const double* x) {
 	double sum = 0;
-	for (size_t k = 0; sys->load != NULL && k < sys->base.space->length; ++k)
-		sum -= sys->load[k] * (x[k] - sys->model->rest[k]);
+	for (int i = 0; i < JN_LOAD_COUNT; ++i)
+		for (size_t k = 0; sys->load[i] != NULL && k < sys->base.space->length; ++k)
+			sum -= sys->load[i][k] * (x[k] - sys->model->rest[k]);
 	return sum;
 }
 
@@ -138,8 +111,8 @@ static double energy(JnSystem* base, const JnState* s) {
 	return elastic_energy(sys, s->x) + gravity_potential(sys->model, s->x) + load_potential(sys, s->x);
 }
 
-void jn_model_system_set_load(JnModel* model, const double* load) {
-	of(model->system)->load = load;
+void jn_model_system_set_load(JnModel* model, JnLoadOf who, const double* load) {
+	of(model->system)->load[who] = load;
 }
 
 // Pairs that meet have no place in a pattern that is made once.
@@ -154,7 +127,7 @@ static JnStatus linearize_repulsion(JnModelSystem* sys, const double* x) {
 
 static JnStatus linearize(JnSystem* base, const JnState* s) {
 	JnModelSystem* sys = of(base);
-	if (sys->damping_is_current && sys->damping_stamp != s->stamp) make_damping(sys, s->x, s->stamp);
+	jn_damping_follow(sys, s);
 	if (sys->unsymmetric != NULL && jn_wind_linearize(sys->model->wind, s)) jn_model_matrix_expire(sys);
 	const bool is_constant = base->is_linear_in_step && sys->stiffness_stamp != 0;
 	if (sys->stiffness_stamp == s->stamp || is_constant) return JN_OK;
@@ -210,10 +183,9 @@ static JnStatus allocate(JnModelSystem* sys) {
 	JN_NEW(arena, sys->momenta, n);
 	JN_NEW(arena, sys->stiffness, entries);
 	JN_NEW(arena, sys->scratch, entries);
-	if (model->has_beta) JN_NEW(arena, sys->damping_store, entries);
-	if (model->has_beta && model->is_matrix_free) JN_NEW(arena, sys->damping_x, n);
-	JN_NEW(arena, sys->beta, model->group_count + 1);
+	if (model->mass_is_diagonal) JN_NEW(arena, sys->inverse_mass, n);
 	for (int k = 0; k < 3 * model->node_count; ++k) {
+		if (sys->inverse_mass != NULL) sys->inverse_mass[k] = 1 / model->nodal_mass[k / 3];
 		sys->external[k] = model->nodal_mass[k / 3] * model->gravity[k % 3];
 		if (model->loads != NULL) sys->external[k] += model->loads[k];
 	}
@@ -221,12 +193,11 @@ static JnStatus allocate(JnModelSystem* sys) {
 	sys->base.depends_on_time = model->wind != NULL && jn_gusts_blow(&model->wind->gusts);
 	sys->base.has_potential = model->wind == NULL;
 	sys->base.mass_is_diagonal = model->mass_is_diagonal;
+	sys->base.depends_on_time |= model->guide_count > 0 || model->input_count > 0;
 	for (int i = 0; i < model->held_count; ++i) sys->base.depends_on_time |= model->held_list[i].motion != NULL;
 	for (int b = 0; b < model->body_count; ++b) {
 		const JnBody* body = &model->bodies[b];
 		sys->base.is_linear_in_step &= body->law->is_linear_in_step;
-		sys->damping_is_current |= jn_body_has_beta(model, body) && body->damping.stiffness == 2;
-		for (int g = 0; g < body->group_count; ++g) sys->beta[body->first_group + g] = jn_group_beta(model, body, g);
 	}
 	sys->base.has_potential &= !sys->damping_is_current;
 	return JN_OK;
@@ -240,50 +211,20 @@ static JnStatus create_unsymmetric(JnModelSystem* sys) {
 	return jn_solver_unsymmetric.create(NULL, &model->pattern, model->held, model->threads, &sys->unsymmetric);
 }
 
-// One damping matrix serves all bodies, so that they must agree on where K is taken.
-static JnStatus check_damping(JnModelSystem* sys) {
-	int chosen = -1;
-	for (int b = 0; b < sys->model->body_count; ++b) {
-		const JnDampingDef* damping = &sys->model->bodies[b].damping;
-		if (!jn_body_has_beta(sys->model, &sys->model->bodies[b])) continue;
-		if (chosen >= 0 && chosen != damping->stiffness)
-			return jn_error(JN_BAD_INPUT,
-							"bodies[%d].damping.stiffness: differs from that of an earlier body; use one for all", b);
-		chosen = damping->stiffness;
-	}
-	sys->damping_at_rest = chosen == 1;
-	return JN_OK;
-}
-
-// Nor do the sums of all bodies tell when each of them begins.
-static JnStatus check_damping_start(JnModelSystem* sys) {
-	bool is_chosen = false;
-	for (int b = 0; b < sys->model->body_count; ++b) {
-		const JnDampingDef* damping = &sys->model->bodies[b].damping;
-		if (damping->alpha == 0 && !jn_body_has_beta(sys->model, &sys->model->bodies[b])) continue;
-		if (is_chosen && sys->damping_start != damping->start)
-			return jn_error(JN_BAD_INPUT,
-							"bodies[%d].damping.start: differs from that of an earlier body; use one for all", b);
-		sys->damping_start = damping->start;
-		is_chosen = true;
-	}
-	switch_damping(sys, 0);
-	return JN_OK;
-}
-
 JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver) {
 	JnModelSystem* sys;
 	JN_NEW(&model->arena, sys, 1);
 	sys->base.ops = &system_ops;
+	sys->algebra = jn_algebra_best();
 	sys->model = model;
 	model->system = &sys->base;
 	sys->base.space = jn_host_space_create(3 * (size_t)model->node_count, model->threads);
 	if (sys->base.space == NULL) return JN_OUT_OF_MEMORY;
 	sys->base.space->node_entries = 3;
 	JN_TRY(jn_assembly_create(model, &sys->assembly));
+	JN_TRY(jn_hold_create(model, &sys->hold));
+	JN_TRY(jn_damping_create(sys));
 	JN_TRY(allocate(sys));
-	JN_TRY(check_damping(sys));
-	JN_TRY(check_damping_start(sys));
 	const JnSolverType* type = (const JnSolverType*)solver->row;
 	JN_TRY(type->create(solver->options, &model->pattern, model->held, model->threads, &sys->solver));
 	if (model->is_matrix_free)
@@ -302,6 +243,12 @@ void jn_model_system_destroy(JnModel* model) {
 	if (sys->unsymmetric != NULL) sys->unsymmetric->type->destroy(sys->unsymmetric);
 	jn_host_space_destroy(sys->base.space);
 	model->system = NULL;
+}
+
+void jn_model_inputs_begin(JnModel* model, double t, double dt) {
+	if (model->input_count == 0) return;
+	for (int i = 0; i < model->input_count; ++i) jn_input_begin(&model->inputs[i], t, dt);
+	of(model->system)->hold.t = NAN;
 }
 
 // Linear and angular momentum from the nodal momenta p = M v.

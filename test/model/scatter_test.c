@@ -1,91 +1,54 @@
-// Random displacement at the start.
-#include "support/model_case.h"
+// From forces of elements to those of nodes: the same bits with one thread and with several, at every width.
+#include "force/thread_case.h"
+#include "model/scatter.h"
 
-static void scattered_rig(Rig* rig, ModelCase* c, double amplitude, int seed) {
-	case_box(c, JN_HEX8, "stable_neo_hookean");
-	c->box.cells[0] = c->box.cells[1] = c->box.cells[2] = 7;
-	c->body.scatter = (JnScatterDef){.amplitude = amplitude, .seed = seed};
-	rig_create(rig, c, 1);
+enum { LINKS = 11 };
+
+static JnScatter* scatter_of(int width) {
+#if defined(__x86_64__)
+	if (width > 2) return width == 8 ? jn_scatter_8 : jn_scatter_4;
+#endif
+	return jn_scatter_2;
 }
 
-static double displacement(const Rig* rig, int node) {
-	const double *x = rig->start.x + 3 * node, *X = jn_model_rest(rig->model) + 3 * node;
-	return hypot(hypot(x[0] - X[0], x[1] - X[1]), x[2] - X[2]);
+static JnGroup links_of(int width, JnArena* arena) {
+	JnConstraint elements[LINKS] = {0};
+	JnGroup group;
+	for (int e = 0; e < LINKS; ++e)
+		for (int i = 0; i < 6; ++i) elements[e].nodes[i] = 3 * e + i;
+	const JnKernel* kernel = jn_constraint_kernel(JN_CONSTRAINT_thread_link, width);
+	assert_int_equal(jn_constraint_group_create(kernel, LINKS, elements, arena, &group), JN_OK);
+	return group;
 }
 
-static void free_nodes_move_within_the_ball_and_held_ones_stay(void** state) {
-	(void)state;
-	ModelCase c;
-	Rig rig;
-	int held = 0, free_count = 0;
-	double squares = 0;
-	scattered_rig(&rig, &c, 0.03, 5);
-	for (int node = 0; node < rig.nodes; ++node) {
-		const double moved = displacement(&rig, node);
-		const bool is_held = jn_model_rest(rig.model)[3 * node + 2] == 0;
-		held += is_held;
-		if (is_held) assert_true(moved == 0);
-		if (is_held) continue;
-		++free_count;
-		squares += moved * moved;
-		assert_true(moved > 0 && moved <= 0.03 * (1 + 1e-12)); // rounding of positions near 0.4
+// Sums of three numbers depend on their order: what was there before, and the two links at a frame, in element order.
+static void links_add_in_the_order_of_elements_whatever_the_range(void** unused) {
+	(void)unused;
+	enum { REALS = 9 * (LINKS + 1) };
+	for (int width = 2; width <= 8; width *= 2) {
+		JnArena arena = {0};
+		if (jn_constraint_kernel(JN_CONSTRAINT_thread_link, width) == NULL) continue;
+		const JnGroup group = links_of(width, &arena);
+		double buffer[16 * 18], whole[REALS], parts[REALS], expected[REALS];
+		uint64_t seed = 6;
+		for (int k = 0; k < 16 * 18; ++k) buffer[k] = random_real(&seed);
+		for (int k = 0; k < REALS; ++k) whole[k] = parts[k] = expected[k] = random_real(&seed);
+		for (int e = 0; e < LINKS; ++e)
+			for (int k = 0; k < 18; ++k) expected[9 * e + k] += -0.3 * buffer[(e / width * 18 + k) * width + e % width];
+		const JnNodeRange all = {.low = 0, .high = REALS / 3, .is_all = true}, low = {.low = 0, .high = 13},
+						  high = {.low = 13, .high = REALS / 3};
+		scatter_of(width)(&group, 0, group.batches, buffer, -0.3, all, whole);
+		scatter_of(width)(&group, 0, group.batches, buffer, -0.3, low, parts);
+		scatter_of(width)(&group, 0, group.batches, buffer, -0.3, high, parts);
+		assert_memory_equal(whole, expected, sizeof expected);
+		assert_memory_equal(parts, expected, sizeof expected);
+		jn_arena_free(&arena);
 	}
-	assert_int_equal(held, 64);
-	// uniform in a ball: mean square 3/5, with variance 3/7 - 9/25 = 0.0686; five standard errors of 448 nodes
-	expect_near(squares / free_count / (0.03 * 0.03), 0.6, 5 * sqrt(0.0686 / 448), "mean square");
-	rig_destroy(&rig);
-}
-
-static void held_axes_alone_stay(void** state) {
-	(void)state;
-	ModelCase c;
-	Rig whole, partly;
-	scattered_rig(&whole, &c, 0.03, 5);
-	rig_destroy(&whole);
-	c.fix[0].axes = "y";
-	rig_create(&partly, &c, 1);
-	c.body.fix.count = 0;
-	rig_create(&whole, &c, 1);
-	for (int k = 0; k < whole.length; ++k) {
-		const double X = jn_model_rest(whole.model)[k];
-		const bool is_held = k % 3 == 1 && jn_model_rest(whole.model)[k / 3 * 3 + 2] == 0;
-		// what is fixed changes no other axis
-		assert_true(partly.start.x[k] == (is_held ? X : whole.start.x[k]));
-		assert_true(whole.start.x[k] != X);
-	}
-	rig_destroy(&partly);
-	rig_destroy(&whole);
-}
-
-static void the_seed_decides(void** state) {
-	(void)state;
-	ModelCase c;
-	Rig first, same, other;
-	scattered_rig(&first, &c, 0.03, 1);
-	scattered_rig(&same, &c, 0.03, 1);
-	scattered_rig(&other, &c, 0.03, 2);
-	assert_memory_equal(first.start.x, same.start.x, (size_t)first.length * sizeof(double));
-	assert_true(largest_difference(first.start.x, other.start.x, first.length) > 0.01);
-	rig_destroy(&first);
-	rig_destroy(&same);
-	rig_destroy(&other);
-}
-
-static void amplitude_zero_is_rest(void** state) {
-	(void)state;
-	ModelCase c;
-	Rig rig;
-	scattered_rig(&rig, &c, 0, 1);
-	assert_memory_equal(rig.start.x, jn_model_rest(rig.model), (size_t)rig.length * sizeof(double));
-	rig_destroy(&rig);
 }
 
 int main(void) {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test(free_nodes_move_within_the_ball_and_held_ones_stay),
-		cmocka_unit_test(held_axes_alone_stay),
-		cmocka_unit_test(the_seed_decides),
-		cmocka_unit_test(amplitude_zero_is_rest),
+		cmocka_unit_test(links_add_in_the_order_of_elements_whatever_the_range),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,134 @@
+// Adds lane by lane; exports jn_scatter_<width>. The number of nodes is a compile-time constant where elements are small.
+#include "model/scatter.h"
+
+#include "math/wide.h"
+
+#define JOIN_NAMES(a, b) a##b
+#define JOIN(a, b) JOIN_NAMES(a, b)
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE int lanes_in(const JnGroup* group, int batch) {
+	const int rest = group->count - batch * JN_WIDE;
+	return rest < JN_WIDE ? rest : JN_WIDE;
+}
+
+INLINE void add(const double* from, double scale, double* to) {
+	to[0] += scale * from[0];
+	to[1] += scale * from[JN_WIDE];
+	to[2] += scale * from[2 * JN_WIDE];
+}
+
+INLINE void scatter_any(const JnGroup* group, int first, int last, const double* buffer, double scale,
+						JnNodeRange range, double* f, int nodes, bool is_all) {
+	const int* batch_nodes = group->nodes + (ptrdiff_t)first * nodes * JN_WIDE;
+	for (int batch = first; batch < last; ++batch, buffer += 3 * nodes * JN_WIDE, batch_nodes += nodes * JN_WIDE) {
+		const int lanes = lanes_in(group, batch);
+		for (int lane = 0; lane < lanes; ++lane)
+			for (int i = 0; i < nodes; ++i) {
+				const int node = batch_nodes[i * JN_WIDE + lane];
+				if (!is_all && (node < range.low || node >= range.high)) continue;
+				add(buffer + 3 * i * JN_WIDE + lane, scale, f + 3 * (ptrdiff_t)node);
+			}
+	}
+}
+
+INLINE void put(double a, double b, double c, double* to) {
+	to[0] = a;
+	to[1] = b;
+	to[2] = c;
+}
+
+// Elements of two nodes. Bonds stand in runs with the same first node, whose sum stays in registers: in memory, each would
+// wait for the one before. No arrays: compilers keep those in memory.
+INLINE void scatter_pairs(const JnGroup* group, int batch, const double* element, double scale, JnNodeRange range,
+						  double* f, bool is_all) {
+	const int lanes = lanes_in(group, batch);
+	const int *first = group->nodes + 2 * (ptrdiff_t)batch * JN_WIDE, *second = first + JN_WIDE;
+	int open = -1; // node whose sum is s0, s1, s2, to be put to `at`
+	double s0 = 0, s1 = 0, s2 = 0, nowhere[3] = {0}, *at = nowhere;
+	for (int lane = 0; lane < lanes; ++lane) {
+		const int i = first[lane], j = second[lane];
+		if (i != open) {
+			put(s0, s1, s2, at);
+			open = i;
+			at = is_all || (i >= range.low && i < range.high) ? f + 3 * (ptrdiff_t)i : nowhere;
+			s0 = at[0];
+			s1 = at[1];
+			s2 = at[2];
+		}
+		s0 += scale * element[lane];
+		s1 += scale * element[JN_WIDE + lane];
+		s2 += scale * element[2 * JN_WIDE + lane];
+		if (is_all || (j >= range.low && j < range.high))
+			add(element + 3 * JN_WIDE + lane, scale, f + 3 * (ptrdiff_t)j);
+	}
+	put(s0, s1, s2, at);
+}
+
+// Elements of two frames of three nodes in a row (force/constraint): nine numbers each, four of them turned from lanes into
+// a row at a time, and added in the order of the elements.
+INLINE void add_frames(const double* element, const int* nodes, double scale, double* f) {
+	int k = 0;
+#if JN_WIDE == 4
+	for (; k < 8; k += 4) {
+		Wide row[2][4];
+		for (int frame = 0; frame < 2; ++frame) {
+			const double* from = element + 4 * (9 * frame + k);
+			const double* const lanes[4] = {from, from + 4, from + 8, from + 12};
+			wide_gather_rows(lanes, 4, row[frame]);
+		}
+		for (int lane = 0; lane < 4; ++lane)
+			for (int frame = 0; frame < 2; ++frame) {
+				double* to = f + 3 * (ptrdiff_t)nodes[3 * 4 * frame + lane] + k;
+				wide_store(to, wide_load(to) + scale * row[frame][lane]);
+			}
+	}
+#endif
+	for (; k < 9; ++k)
+		for (int lane = 0; lane < JN_WIDE; ++lane)
+			for (int frame = 0; frame < 2; ++frame)
+				f[3 * (ptrdiff_t)nodes[3 * JN_WIDE * frame + lane] + k] +=
+					scale * element[(9 * frame + k) * JN_WIDE + lane];
+}
+
+INLINE void scatter_frames(const JnGroup* group, int first, int last, const double* buffer, double scale,
+						   JnNodeRange range, double* f, bool is_all) {
+	const int* nodes = group->nodes + (ptrdiff_t)first * 6 * JN_WIDE;
+	for (int batch = first; batch < last; ++batch, buffer += 18 * JN_WIDE, nodes += 6 * JN_WIDE) {
+		if (!is_all || lanes_in(group, batch) < JN_WIDE) {
+			scatter_any(group, batch, batch + 1, buffer, scale, range, f, 6, is_all);
+			continue;
+		}
+		add_frames(buffer, nodes, scale, f);
+	}
+}
+
+INLINE void scatter_with(const JnGroup* group, int first, int last, const double* buffer, double scale,
+						 JnNodeRange range, double* f, bool is_all) {
+	switch (group->kernel->nodes) {
+	case 2:
+		for (int batch = first; batch < last; ++batch, buffer += 6 * JN_WIDE)
+			scatter_pairs(group, batch, buffer, scale, range, f, is_all);
+		return;
+	case 3:
+		scatter_any(group, first, last, buffer, scale, range, f, 3, is_all);
+		return;
+	case 4:
+		scatter_any(group, first, last, buffer, scale, range, f, 4, is_all);
+		return;
+	case 6:
+		scatter_frames(group, first, last, buffer, scale, range, f, is_all);
+		return;
+	default:
+		scatter_any(group, first, last, buffer, scale, range, f, group->kernel->nodes, is_all);
+		return;
+	}
+}
+
+void JOIN(jn_scatter_, JN_WIDE)(const JnGroup* group, int first, int last, const double* buffer, double scale,
+								JnNodeRange range, double* f) {
+	if (range.is_all)
+		scatter_with(group, first, last, buffer, scale, range, f, true);
+	else
+		scatter_with(group, first, last, buffer, scale, range, f, false);
+}
