@@ -3,6 +3,9 @@
 file(GLOB JN_SOURCES CONFIGURE_DEPENDS src/*/*.c src/*/*/*.c)
 file(GLOB JN_KERNEL_SOURCES CONFIGURE_DEPENDS src/force/solid_*.c src/*/wide_*.c)
 list(FILTER JN_SOURCES EXCLUDE REGEX "/src/force/solid_[^/]*\\.c$|/src/[^/]*/wide_[^/]*\\.c$|/src/backend/")
+# Loops over three coordinates, which -O2 does not unroll, are what these two folders are made of.
+file(GLOB JN_LOOP_SOURCES CONFIGURE_DEPENDS src/detect/*.c src/pass/*.c)
+set_source_files_properties(${JN_LOOP_SOURCES} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release,RelWithDebInfo>:-O3>")
 if(NOT JN_SOURCES)
 	message(FATAL_ERROR "no sources under ${CMAKE_CURRENT_SOURCE_DIR}/src")
 endif()

@@ -353,6 +353,8 @@ typedef struct JnPassType {
 	bool is_always;    ///< the options themselves stand there: it runs wherever `create` finds something to do
 	/// Build it for a model; *out is NULL when there is nothing to do. Messages begin with the key path.
 	JnStatus (*create)(const void* options, JnModel* model, JnPass** out);
+	/// Once all passes are built, in their order: find those that it works with. Messages begin with the key path.
+	JnStatus (*join)(JnPass*, JnPass* const* all, int count);
 	void (*destroy)(JnPass*);
 	/// Before the integrator runs, for the `round`th time from this start.
 	JnStatus (*prepare)(JnPass*, const JnStep*, int round);
@@ -360,6 +362,9 @@ typedef struct JnPassType {
 	JnStatus (*correct)(JnPass*, JnStep*, int round, bool* edited, bool* again);
 	/// Of an accepted step. Who changes what forces depend on, as fracture does, touches the end (jn_state_touch).
 	void (*commit)(JnPass*, const JnStep*);
+	/// Add to `force`, 3 numbers a node, what the pass did to held nodes in the last accepted step beside the loads of the
+	/// system [N]; to others it may add anything. NULL: nothing.
+	void (*react)(const JnPass*, double* force);
 	/// Why the last attempt failed in this pass: a clause for a message, or "". At most `size` bytes.
 	void (*explain)(const JnPass*, size_t size, char* text);
 	int column_count;

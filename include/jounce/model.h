@@ -54,11 +54,22 @@ typedef struct JnFixDef {
 	const char* axes; ///< which coordinates: any of "x", "y", "z"
 } JnFixDef;
 
-/// Nodes moved along prescribed paths.
+/// Frames of a thread that run along a curve, each at its distance behind the head.
+typedef struct JnAlongDef {
+	JnVariant curve;  ///< row of the list of curves
+	double origin[3]; ///< where the curve's own origin goes [m]
+	double rotate[3]; ///< turns about x, then y, then z, about its own origin [rad]
+	JnVariant head;   ///< row of jn_motion_list: arc length of the head [m]
+	int leads;        ///< which end of the chosen frames is the head: 0 that nearer to the thread's start, 1 to its end
+} JnAlongDef;
+
+/// Nodes moved along prescribed paths: by `motion`, `along` or `input`.
 typedef struct JnDriveDef {
 	JnSelectDef where;
 	JnVariant motion[3]; ///< displacement along x, y, z; row NULL: not driven along that axis
 	int others;          ///< what the other axes do: 0 held, 1 free
+	JnAlongDef* along;   ///< NULL: not along a curve
+	const char* input;   ///< name of the input that sets their displacement; NULL: none
 } JnDriveDef;
 
 /// A constant force on nodes.

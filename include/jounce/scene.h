@@ -57,11 +57,28 @@ typedef struct JnProgress {
 	double specific_error; ///< |e_tot(t) - e_tot(0)| [J/kg]
 } JnProgress;
 
+enum { JN_PACE_SHARES = 4 };
+
+/// How a run kept up with the clock. Percentiles: 50, 95, 99 and 99.9 % of the steps are not above, to a hundredth of the
+/// value. The clock stands still while results are measured and written; steps and lateness are without that.
+typedef struct JnPaceReport {
+	double speed;                    ///< simulated seconds a wall second, as asked for
+	long steps, missed;              ///< missed: done after the time at which their end was due
+	double step[JN_PACE_SHARES];     ///< what a step took [s]
+	double lateness[JN_PACE_SHARES]; ///< how late it was done; 0 when in time [s]
+	double waking[JN_PACE_SHARES];   ///< how late the system woke it from waiting, of the times that it waited [s]
+	double step_worst, lateness_worst, waking_worst; ///< [s]
+	double reached;                                  ///< simulated seconds a wall second, without recording
+	double possible;                                 ///< the same without waiting: how much faster it could go
+	double stepping_seconds, waiting_seconds, recording_seconds; ///< parts of the wall time [s]
+} JnPaceReport;
+
 typedef struct JnRunOptions {
 	const char* directory;                           ///< where results go; made if missing
 	int threads;                                     ///< 0: as many as there are
 	bool (*progress)(void* user, const JnProgress*); ///< return false to stop after this step; NULL: run to the end
 	void* user;
+	double speed; ///< simulated seconds a wall second, for runs that wait for the clock; 0: as fast as it goes
 } JnRunOptions;
 
 /// What a run came to.
@@ -71,6 +88,7 @@ typedef struct JnRunResult {
 	double t, wall_seconds;
 	double specific_error; ///< at the end [J/kg]
 	int nodes, elements;
+	JnPaceReport pace; ///< of runs that wait for the clock; speed 0: this one did not
 } JnRunResult;
 
 /// Simulate a scene and record it. JN_RUN_FAILED: the last good state is on disk. `result` is filled as far as the run

@@ -34,10 +34,47 @@ typedef struct JnFractureDef {
 	double debris; ///< nodes that have lost this share of their elements lose the rest; 1: none
 } JnFractureDef;
 
+/// How threads meet themselves, each other, bodies and obstacles: capsules and impulses (docs/collision.md).
+typedef struct JnCollisionDef {
+	double friction;    ///< mu of pairs that `pairs` does not name
+	JnItems pairs;      ///< JnContactPairDef
+	double restitution; ///< share of the approach velocity with which what meets parts again
+	double residue;     ///< share of the response forces that acts on as a force during the next step
+	double push_out;    ///< fastest separation of what overlaps at the start of a step [m/s]
+	double neighbors;   ///< links of one thread nearer than this along it do not collide [m]; NAN: pi radii
+	int iterations;     ///< sweeps of a step at most, at the level of positions and at that of velocities
+	double tolerance;   ///< motion of a contact in a sweep, relative to that of all, at which they end
+} JnCollisionDef;
+
+/// Where a thread may go through the surface of a body (docs/collision.md).
+typedef struct JnSutureDef {
+	const char *thread, *body; ///< names of bodies
+	int tip;                   ///< the end that pierces: 0 first, 1 last
+	int needle;                ///< links from the tip on that pass through the surface
+	double friction;           ///< mu along the thread, of the force across it
+	double hold;               ///< friction without that [N]
+	double clear;              ///< links nearer to a site along the thread do not collide [m]; NAN: two links
+} JnSutureDef;
+
+/// Positions moved onto the lengths at rest after every step, sweep by sweep (docs/relax.md).
+typedef struct JnRelaxDef {
+	int sweeps;        ///< through all elements, a step
+	bool axis;         ///< of threads: lengths of links along the axis
+	bool springs;      ///< lengths of all springs
+	bool volumes;      ///< of the tetrahedra
+	double compliance; ///< alpha of lengths [m/N]; 0: rigid
+	double factor;     ///< over-relaxation, in (0, 2)
+	int velocity;      ///< 0 follow: v += dx/dt; 1 keep
+	int order;         ///< 0 before contact; 1 after it
+} JnRelaxDef;
+
 typedef struct JnSimDef {
 	JnModelDef model;
-	JnVariant system;      ///< row of jn_system_list, simulated in place of a model; row NULL: none
-	JnContactDef* contact; ///< NULL: bodies pass through each other
+	JnVariant system;          ///< row of jn_system_list, simulated in place of a model; row NULL: none
+	JnContactDef* contact;     ///< NULL: bodies pass through each other
+	JnRelaxDef* relax;         ///< NULL: no relaxation
+	JnCollisionDef* collision; ///< NULL: threads pass through everything
+	JnSutureDef* suture;       ///< NULL: no thread pierces a body
 	JnFractureDef fracture;
 	JnVariant integrator; ///< row of the integrator list
 	JnNewtonDef newton;
@@ -82,6 +119,22 @@ const JnState* jn_sim_state(const JnSim* sim);
 /// its ends (error of fourth order in the step), velocities by its derivative (third order); straight lines where contact has
 /// edited the end. Held nodes are where they should be. At the end of the step, and later, it is a copy of jn_sim_state.
 void jn_sim_state_at(const JnSim* sim, double t, JnState* out);
+
+/// Nodes that a program moves from step to step: those of `drive: [{where: ..., input: NAME}]` in a scene.
+typedef struct JnInput JnInput;
+
+/// The input of a name; NULL when no node of the model has it. Owned by the simulation.
+JnInput* jn_sim_input(JnSim* sim, const char* name);
+
+/// Where its nodes shall be at the end of the next step: a displacement from rest [m], the same for all of them, and its
+/// velocity there [m/s]; NULL: the mean velocity of the step. In between they move on the cubic that has position and
+/// velocity of both ends, at every stage of every method. A step that is cut short goes on along it; after its end they stand
+/// still until the input is set again. Allocates nothing.
+void jn_input_set(JnInput* input, const double displacement[3], const double velocity[3]);
+
+/// The force with which the rest of the model, its weight and damping included, acts on the nodes of an input in the present
+/// state [N], without their inertia: what a hand feels that holds them. Allocates nothing.
+JnStatus jn_sim_input_force(JnSim* sim, const JnInput* input, double force[3]);
 
 long jn_sim_steps(const JnSim* sim);                  ///< accepted so far
 double jn_sim_last_dt(const JnSim* sim);              ///< size of the last accepted step [s]; 0 before the first

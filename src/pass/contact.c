@@ -50,7 +50,7 @@ static JnStatus prepare(JnPass* base, const JnStep* step, int round) {
 		pass->is_loaded = pass->prediction != JN_PREDICTION_FREE && pass->total.pressing > 0;
 		if (pass->is_loaded) memcpy(pass->tried, pass->load, jn_contact_entries(pass) * sizeof *pass->tried);
 	}
-	jn_model_system_set_load(pass->model, pass->is_loaded ? pass->tried : NULL);
+	jn_model_system_set_load(pass->model, JN_LOAD_OF_CONTACT, pass->is_loaded ? pass->tried : NULL);
 	return JN_OK;
 }
 

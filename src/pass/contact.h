@@ -12,6 +12,7 @@
 
 #include "detect/detector.h"
 #include "model/body_matrix.h"
+#include "pass/friction.h"
 #include "pass/pass.h"
 #include "solve/qp_rows.h"
 
@@ -71,9 +72,8 @@ typedef struct JnContactPass {
 	JnSkin* skins;
 	int* skin_of; ///< one a body: its skin, or -1
 	JnObstacle* obstacles;
-	double* friction; ///< [surface][surface] mu
-	int surface_count;
-	int *skin_surface, *obstacle_surface; ///< which row and column of `friction`
+	JnFriction friction;
+	int *skin_surface, *obstacle_surface; ///< which row and column of it
 	JnDetector* detector;
 	JnBodyMatrices matrices;
 	JnQp* qp;

@@ -1,31 +1,11 @@
 // The rows of `contact:` in a scene file.
+#include "pass/friction.h"
 #include "pass/pass.h"
 #include "solve/qp.h"
 
 static const char* const rules[] = {"approaching", "touching", NULL};
 static const char* const dampings[] = {"auto", "no", "yes", NULL};
 static const char* const predictions[] = {"auto", "carried", "iterated", "free", NULL};
-
-static const JnKey pair_keys[] = {
-	{.name = "first",
-	 .kind = JN_TEXT,
-	 .field = offsetof(JnContactPairDef, first),
-	 .required = true,
-	 .meaning = "surface of the one, as bodies and obstacles name it"},
-	{.name = "second",
-	 .kind = JN_TEXT,
-	 .field = offsetof(JnContactPairDef, second),
-	 .required = true,
-	 .meaning = "surface of the other"},
-	{.name = "friction",
-	 .kind = JN_REAL,
-	 .field = offsetof(JnContactPairDef, friction),
-	 .required = true,
-	 .low = 0,
-	 .high = 100,
-	 .meaning = "coefficient of Coulomb friction between the two"},
-	{0},
-};
 
 const JnKey jn_contact_keys[] = {
 	{.name = "rule",
@@ -79,7 +59,7 @@ const JnKey jn_contact_keys[] = {
 	{.name = "pairs",
 	 .kind = JN_LIST,
 	 .field = offsetof(JnContactDef, pairs),
-	 .keys = pair_keys,
+	 .keys = jn_friction_pair_keys,
 	 .size = sizeof(JnContactPairDef),
 	 .meaning = "friction of two surfaces"},
 	{.name = "damping",

@@ -92,7 +92,7 @@ static double friction_of(const JnContactPass* pass, const JnContact* contact) {
 	const int mine = pass->skin_surface[contact->vertex_skin];
 	const int other = contact->other_skin == JN_OBSTACLE_SKIN ? pass->obstacle_surface[contact->other]
 															  : pass->skin_surface[contact->other_skin];
-	return pass->friction[mine * pass->surface_count + other];
+	return jn_friction_of(&pass->friction, mine, other);
 }
 
 static int most_entries(const JnContactPass* pass, const JnContact* contact) {

@@ -67,64 +67,18 @@ static JnStatus list_obstacles(JnContactPass* pass) {
 
 // ---- friction
 
-typedef struct Names {
-	const char** list;
-	int count;
-} Names;
-
-static int find_name(const Names* names, const char* name) {
-	for (int i = 0; i < names->count; ++i)
-		if (strcmp(names->list[i], name) == 0) return i;
-	return -1;
-}
-
-static int place_name(Names* names, const char* name) {
-	const int known = find_name(names, name);
-	if (known >= 0) return known;
-	names->list[names->count] = name;
-	return names->count++;
-}
-
-static const char* next_name(void* user, int index) {
-	const Names* names = user;
-	return index < names->count ? names->list[index] : NULL;
-}
-
-static JnStatus find_pair_name(const Names* names, const char* name, int pair, const char* key, int* out) {
-	*out = find_name(names, name);
-	if (*out >= 0) return JN_OK;
-	const char* near = jn_suggest(name, next_name, (void*)names);
-	return jn_error(JN_BAD_INPUT, "contact.pairs[%d].%s: nothing has the surface '%.100s'%s%s%s", pair, key, name,
-					near != NULL ? "; did you mean '" : "; name it as `surface` of a body's contact or of an obstacle",
-					near != NULL ? near : "", near != NULL ? "'?" : "");
-}
-
-static JnStatus set_pairs(JnContactPass* pass, const Names* names) {
-	const JnContactPairDef* pairs = pass->def->pairs.data;
-	for (int i = 0; i < pass->def->pairs.count; ++i) {
-		int first, second;
-		JN_TRY(find_pair_name(names, pairs[i].first, i, "first", &first));
-		JN_TRY(find_pair_name(names, pairs[i].second, i, "second", &second));
-		pass->friction[first * names->count + second] = pairs[i].friction;
-		pass->friction[second * names->count + first] = pairs[i].friction;
-	}
-	return JN_OK;
-}
-
+// Skins first, obstacles behind them.
 static JnStatus create_friction(JnContactPass* pass) {
 	const JnModel* model = pass->model;
-	Names names = {0};
-	JN_NEW(&pass->arena, names.list, pass->skin_count + model->obstacle_count + 1);
-	JN_NEW(&pass->arena, pass->skin_surface, pass->skin_count + 1);
-	JN_NEW(&pass->arena, pass->obstacle_surface, model->obstacle_count + 1);
-	for (int i = 0; i < pass->skin_count; ++i)
-		pass->skin_surface[i] = place_name(&names, model->bodies[pass->skins[i].body].contact.surface);
-	for (int i = 0; i < model->obstacle_count; ++i)
-		pass->obstacle_surface[i] = place_name(&names, model->obstacles[i].surface);
-	pass->surface_count = names.count;
-	JN_NEW(&pass->arena, pass->friction, names.count * names.count + 1);
-	for (int i = 0; i < names.count * names.count; ++i) pass->friction[i] = pass->def->friction;
-	return set_pairs(pass, &names);
+	const char** names;
+	JN_NEW(&pass->arena, names, pass->skin_count + model->obstacle_count + 1);
+	JN_NEW(&pass->arena, pass->skin_surface, pass->skin_count + model->obstacle_count + 1);
+	pass->obstacle_surface = pass->skin_surface + pass->skin_count;
+	for (int i = 0; i < pass->skin_count; ++i) names[i] = model->bodies[pass->skins[i].body].contact.surface;
+	for (int i = 0; i < model->obstacle_count; ++i) names[pass->skin_count + i] = model->obstacles[i].surface;
+	return jn_friction_create(&pass->def->pairs, pass->def->friction, "contact",
+							  pass->skin_count + model->obstacle_count, names, &pass->arena, pass->skin_surface,
+							  &pass->friction);
 }
 
 // ---- detector

@@ -10,9 +10,15 @@ enum { JN_PASSES_MOST = 8 };
 
 extern const JnPassType* const jn_pass_list[]; ///< NULL at the end, in the order in which they run
 extern const JnPassType jn_pass_contact;
+extern const JnPassType jn_pass_collision;
+extern const JnPassType jn_pass_suture;
 extern const JnPassType jn_pass_fracture;
-extern const JnKey jn_contact_keys[];  ///< of JnContactDef
-extern const JnKey jn_fracture_keys[]; ///< of JnFractureDef
+extern const JnKey jn_contact_keys[];                              ///< of JnContactDef
+extern const JnKey jn_collision_keys[];                            ///< of JnCollisionDef
+extern const JnKey jn_suture_keys[];                               ///< of JnSutureDef
+extern const JnKey jn_fracture_keys[];                             ///< of JnFractureDef
+extern const JnPassType jn_pass_relax_before, jn_pass_relax_after; ///< contact
+extern const JnKey jn_relax_keys[];                                ///< of JnRelaxDef
 
 /// The passes of a simulation. All zero is valid and does nothing.
 typedef struct JnPasses {
@@ -28,6 +34,9 @@ void jn_passes_destroy(JnPasses* passes);
 JnStatus jn_passes_prepare(JnPasses* passes, const JnStep* step, int round);
 JnStatus jn_passes_correct(JnPasses* passes, JnStep* step, int round, bool* edited, bool* again);
 void jn_passes_commit(JnPasses* passes, const JnStep* step);
+
+/// Add what the passes did to held nodes in the last accepted step, beside the loads of the system [N].
+void jn_passes_react(const JnPasses* passes, double* force);
 
 /// The first explanation that a pass has, or "".
 void jn_passes_explain(const JnPasses* passes, size_t size, char* text);

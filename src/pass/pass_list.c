@@ -1,10 +1,40 @@
 // The passes that simulations may run, and running them.
 #include "pass/pass.h"
 
-const JnPassType* const jn_pass_list[] = {&jn_pass_contact, &jn_pass_fracture, NULL};
+#include "base/log.h"
+#include "mesh/thread.h"
+#include "model/model.h"
+
+const JnPassType* const jn_pass_list[] = {&jn_pass_relax_before,
+										  &jn_pass_contact,
+										  &jn_pass_collision,
+										  &jn_pass_suture,
+										  &jn_pass_relax_after,
+										  &jn_pass_fracture,
+										  NULL};
+
+// Both would move a thread's nodes, each without regard for the other.
+static JnStatus check(const JnSimDef* def, const JnModel* model) {
+	for (int b = 0; def->contact != NULL && def->collision != NULL && b < model->body_count; ++b)
+		if (model->bodies[b].mesh.thread != NULL && model->bodies[b].contact.active)
+			return jn_error(
+				JN_BAD_INPUT,
+				"collision: stands beside `contact:`, and both would move the thread '%s'; take one of them "
+				"out",
+				model->bodies[b].name);
+	return JN_OK;
+}
+
+static JnStatus join(const JnPasses* passes) {
+	for (int i = 0; i < passes->count; ++i)
+		if (passes->list[i]->type->join != NULL)
+			JN_TRY(passes->list[i]->type->join(passes->list[i], passes->list, passes->count));
+	return JN_OK;
+}
 
 JnStatus jn_passes_create(const JnSimDef* def, JnModel* model, JnPasses* passes) {
 	*passes = (JnPasses){0};
+	JN_TRY(check(def, model));
 	for (int i = 0; jn_pass_list[i] != NULL; ++i) {
 		const JnPassType* type = jn_pass_list[i];
 		const void* place = (const char*)def + type->definition;
@@ -16,7 +46,9 @@ JnStatus jn_passes_create(const JnSimDef* def, JnModel* model, JnPasses* passes)
 		jn_passes_destroy(passes);
 		return status;
 	}
-	return JN_OK;
+	const JnStatus status = join(passes);
+	if (status != JN_OK) jn_passes_destroy(passes);
+	return status;
 }
 
 void jn_passes_destroy(JnPasses* passes) {
@@ -46,6 +78,11 @@ JnStatus jn_passes_correct(JnPasses* passes, JnStep* step, int round, bool* edit
 void jn_passes_commit(JnPasses* passes, const JnStep* step) {
 	for (int i = 0; i < passes->count; ++i)
 		if (passes->list[i]->type->commit != NULL) passes->list[i]->type->commit(passes->list[i], step);
+}
+
+void jn_passes_react(const JnPasses* passes, double* force) {
+	for (int i = 0; i < passes->count; ++i)
+		if (passes->list[i]->type->react != NULL) passes->list[i]->type->react(passes->list[i], force);
 }
 
 void jn_passes_explain(const JnPasses* passes, size_t size, char* text) {
