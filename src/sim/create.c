@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "base/parallel.h"
 #include "base/space.h"
+#include "model/model.h"
 #include "model/system_list.h"
 #include "sim/sim_keys.h"
 #include "sim/simulation.h"
@@ -39,6 +40,8 @@ static JnStatus create_with_model(JnSim* sim, const JnSimDef* def) {
 	sim->sys = jn_model_system(sim->model);
 	JN_TRY(create_parts(sim));
 	JN_TRY(jn_passes_create(def, sim->model, &sim->passes));
+	if (sim->model->input_count > 0 && (sim->work[0] = sim->sys->space->ops->create(sim->sys->space)) == NULL)
+		return JN_OUT_OF_MEMORY;
 	jn_model_start(sim->model, 0, &sim->start);
 	return begin_first_step(sim);
 }
@@ -49,6 +52,9 @@ static JnStatus check_system(const JnSimDef* def) {
 						: def->model.obstacles.count > 0 ? "obstacles"
 						: def->model.wind != NULL        ? "wind"
 						: def->contact != NULL           ? "contact"
+						: def->collision != NULL         ? "collision"
+						: def->suture != NULL            ? "suture"
+						: def->relax != NULL             ? "relax"
 														 : NULL;
 	if (extra == NULL) return JN_OK;
 	return jn_error(JN_BAD_INPUT, "%s: stand%s beside 'system: %s', which is simulated alone; take one of them out",

@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "base/report.h"
 #include "base/timer.h"
+#include "model/system.h"
 #include "sim/simulation.h"
 
 // The last step ends on the duration; a difference that is only rounding leaves the step as it is.
@@ -70,6 +71,7 @@ JnStatus jn_sim_step(JnSim* sim) {
 	sim->report = (JnReport){0};
 	sim->sys->report = &sim->report;
 	JnVerdict verdict = {0};
+	if (sim->model != NULL) jn_model_inputs_begin(sim->model, sim->start.t, clip(sim, sim->next_dt));
 	while (!verdict.accepted) {
 		JnStep step = {.sys = sim->sys,
 					   .start = &sim->start,

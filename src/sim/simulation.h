@@ -16,7 +16,7 @@ struct JnSim {
 	int threads;
 	JnModel* model;     // NULL when the system is built in, or the user's
 	JnSystem* built_in; // NULL: none
-	JnVec work[2];      // of a built-in system
+	JnVec work[2];      // of a built-in system; of a model with inputs: the first, for forces
 	JnSystem* sys;
 	JnIntegrator* integrator;
 	JnController* controller;
