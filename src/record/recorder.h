@@ -4,7 +4,7 @@
 #define JN_RECORD_RECORDER_H
 
 #include "base/arena.h"
-#include "jounce/base.h"
+#include "jounce/scene.h"
 #include "mesh/embed.h"
 #include "mesh/mesh.h"
 
@@ -84,6 +84,7 @@ typedef struct JnRecordEnd {
 	long steps, frames, rejected, newton, factorizations, solves, iterations, forces, tangents, indefinite, minimized;
 	double t, t_end;                           ///< reached and wanted [s]
 	double specific_error, specific_error_max; ///< |e_tot(t) - e_tot(0)|, at the end and largest [J/kg]
+	const JnPaceReport* pace;                  ///< NULL: the run did not wait for the clock
 } JnRecordEnd;
 
 typedef struct JnRecorder JnRecorder;

@@ -21,14 +21,20 @@ const JnRecorderType* const jn_recorder_list[] = {
 	NULL,
 };
 
+// What to do about numbers that are none, or beyond all bounds.
+static const char* remedy(double t) {
+	return t > 0 ? "Try a smaller step.dt, or a more robust method (backward_euler)"
+				 : "Look at the sizes, velocities and materials of the scene";
+}
+
 static JnStatus check_nodes(const double* numbers, int node_count, JnField field, double t) {
 	const size_t components = (size_t)field.components;
 	for (size_t i = 0; i < components * (size_t)node_count; i++) {
 		if (isfinite(numbers[i])) continue;
 		char axis[] = " along x";
 		axis[sizeof axis - 2] = "xyz"[i % components];
-		return jn_error(JN_NOT_FINITE, "the %s of node %zu is %g %s%s at t = %g s; it was not recorded", field.name,
-						i / components, numbers[i], field.unit, components > 1 ? axis : "", t);
+		return jn_error(JN_NOT_FINITE, "the %s of node %zu is %g %s%s at t = %g s; it was not recorded. %s", field.name,
+						i / components, numbers[i], field.unit, components > 1 ? axis : "", t, remedy(t));
 	}
 	return JN_OK;
 }
@@ -45,8 +51,8 @@ static JnStatus check_frame(const JnRecordInfo* info, const JnRecordStep* step) 
 static JnStatus check_values(const JnRecordInfo* info, const JnRecordStep* step) {
 	for (int i = 0; step->values != NULL && i < info->column_count; i++) {
 		if (isfinite(step->values[i])) continue;
-		return jn_error(JN_NOT_FINITE, "the value of %s is %g at step %ld, t = %g s; it was not recorded",
-						info->columns[i].name, step->values[i], step->step, step->t);
+		return jn_error(JN_NOT_FINITE, "the value of %s is %g at step %ld, t = %g s; it was not recorded. %s",
+						info->columns[i].name, step->values[i], step->step, step->t, remedy(step->t));
 	}
 	return JN_OK;
 }

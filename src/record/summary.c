@@ -117,6 +117,44 @@ static void print_counts(JnTextFile* file, const JnRecordInfo* info, const JnRec
 	}
 }
 
+static void print_percentiles(JnTextFile* file, const char* name, const double values[JN_PACE_SHARES], double worst) {
+	static const char* const shares[JN_PACE_SHARES] = {"p50", "p95", "p99", "p99_9"};
+	jn_text_print(file, "\t\t\"%s\": {", name);
+	for (int i = 0; i < JN_PACE_SHARES; i++) {
+		jn_text_print(file, "\"%s\": ", shares[i]);
+		print_real(file, values[i]);
+		jn_text_print(file, ", ");
+	}
+	jn_text_print(file, "\"worst\": ");
+	print_real(file, worst);
+	jn_text_print(file, "},\n");
+}
+
+static void print_pace(JnTextFile* file, const JnPaceReport* pace) {
+	const struct {
+		const char* name;
+		double value;
+	} reals[] = {
+		{"speed", pace->speed},
+		{"missed_share", pace->steps > 0 ? (double)pace->missed / (double)pace->steps : 0},
+		{"reached", pace->reached},
+		{"possible", pace->possible},
+		{"stepping_seconds", pace->stepping_seconds},
+		{"waiting_seconds", pace->waiting_seconds},
+		{"recording_seconds", pace->recording_seconds},
+	};
+	jn_text_print(file, "\t\"realtime\": {\n");
+	for (size_t i = 0; i < sizeof reals / sizeof reals[0]; i++) {
+		jn_text_print(file, "\t\t\"%s\": ", reals[i].name);
+		print_real(file, reals[i].value);
+		jn_text_print(file, ",\n");
+	}
+	print_percentiles(file, "step_seconds", pace->step, pace->step_worst);
+	print_percentiles(file, "lateness_seconds", pace->lateness, pace->lateness_worst);
+	print_percentiles(file, "waking_seconds", pace->waking, pace->waking_worst);
+	jn_text_print(file, "\t\t\"steps\": %ld,\n\t\t\"missed\": %ld\n\t},\n", pace->steps, pace->missed);
+}
+
 static void print_host(JnTextFile* file) {
 	const JnHost host = jn_host_describe();
 	jn_text_print(file, "\t\"host\": {\n\t\t\"name\": ");
@@ -149,6 +187,7 @@ static JnStatus close_summary(JnRecorder* recorder, const JnRecordEnd* end) {
 	print_texts(&file, summary, end);
 	print_reals(&file, summary, end);
 	print_counts(&file, recorder->info, end);
+	if (end->pace != NULL) print_pace(&file, end->pace);
 	print_host(&file);
 	jn_text_print(&file, "}\n");
 	return jn_text_close(&file);

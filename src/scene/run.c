@@ -72,16 +72,27 @@ static bool wants_more(JnRun* run) {
 	return run->options->progress(run->options->user, &progress);
 }
 
+// A step, timed where the run keeps pace with the clock.
+static JnStatus step(JnRun* run) {
+	const bool is_paced = run->pace.speed > 0;
+	if (is_paced) jn_pace_step_begins(&run->pace);
+	JN_TRY(jn_sim_step(run->sim));
+	if (is_paced) jn_pace_step_ends(&run->pace, jn_sim_state(run->sim)->t);
+	return JN_OK;
+}
+
 static JnStatus step_to_end(JnRun* run, JnRunResult* result) {
 	run->began = jn_seconds();
 	JN_TRY(write_step(run));
+	if (run->options->speed > 0) jn_pace_begin(&run->pace, run->options->speed, jn_sim_state(run->sim)->t);
 	while (!jn_sim_is_done(run->sim) && !result->was_stopped) {
-		const JnStatus status = jn_sim_step(run->sim);
+		const JnStatus status = step(run);
 		run->end.wall_seconds = jn_seconds() - run->began;
 		if (status != JN_OK) return status;
 		count_step(run);
 		JN_TRY(write_step(run));
 		result->was_stopped = !wants_more(run) && !jn_sim_is_done(run->sim);
+		if (run->pace.speed > 0 && !result->was_stopped) jn_pace_wait(&run->pace, jn_sim_state(run->sim)->t);
 	}
 	return JN_OK;
 }
@@ -105,6 +116,10 @@ static JnStatus finish(JnRun* run, JnStatus status, bool was_stopped) {
 	JnStatus written = JN_OK;
 	if (status != JN_IO_FAILED && !run->frame_is_written)
 		written = write_record(run, jn_sim_state(run->sim), NULL, true);
+	if (run->pace.speed > 0) {
+		run->pace_report = jn_pace_report(&run->pace, jn_sim_state(run->sim)->t);
+		run->end.pace = &run->pace_report;
+	}
 	run->end.outcome = status != JN_OK ? "failed" : was_stopped ? "interrupted" : "done";
 	run->end.message = status == JN_OK ? "" : run->message[0] != '\0' ? run->message : jn_status_name(status);
 	const JnStatus closed = jn_recorders_close(&run->recorders, &run->end);
@@ -127,6 +142,7 @@ static void fill_result(JnRun* run, JnRunResult* result) {
 	result->t = run->end.t;
 	result->wall_seconds = run->end.wall_seconds;
 	result->specific_error = run->end.specific_error;
+	result->pace = run->pace_report;
 	if (run->sim == NULL) return;
 	result->nodes = run->info.node_count;
 	result->elements = element_count(&run->info);

@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "record/recorder.h"
+#include "scene/pace.h"
 #include "scene/probe.h"
 #include "scene/scene.h"
 
@@ -16,6 +17,8 @@ typedef struct JnRun {
 	JnRecordInfo info;
 	JnRecorders recorders;
 	JnRecordEnd end;
+	JnPace pace; ///< speed 0: this run waits for no clock
+	JnPaceReport pace_report;
 	JnProbe* probes;
 	double* values;        ///< one a column
 	const double** fields; ///< one a field

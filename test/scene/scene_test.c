@@ -187,7 +187,7 @@ static void falling_keyframe_times_are_refused(void** state) {
 static void drive_without_motion_is_refused(void** state) {
 	(void)state;
 	expect_refusal(7, "    drive: [{where: {face: z+}}]\n    fix:", "7:13",
-				   "bodies[0].drive[0]: no axis has a motion; give x, y or z, or use fix");
+				   "bodies[0].drive[0]: no axis has a motion; give x, y or z, or along, or input, or use fix");
 }
 
 static void bodies_of_one_name_are_refused(void** state) {
