@@ -19,24 +19,14 @@
 #include "compare_process.h"
 #include "compare_progress.h"
 #include "compare_recording.h"
+#include "interrupt.h"
 
 static const char settings_name[] = "settings.txt";
 
-static volatile sig_atomic_t interrupted = 0;
-
-static void on_interrupt(int signal_number) {
-	(void)signal_number;
-	interrupted = 1;
-}
-
 // A second Ctrl-C ends this process at once, and the runs with it. SIGCHLD waits to be asked for.
 static void handle_signals(void) {
-	const struct sigaction stop = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
-	const struct sigaction ignore = {.sa_handler = SIG_IGN};
 	sigset_t ended;
-	sigaction(SIGINT, &stop, NULL);
-	sigaction(SIGTERM, &stop, NULL);
-	sigaction(SIGPIPE, &ignore, NULL);
+	app_catch_interrupts(0);
 	sigemptyset(&ended);
 	sigaddset(&ended, SIGCHLD);
 	sigprocmask(SIG_BLOCK, &ended, NULL);
@@ -165,7 +155,7 @@ static JnStatus start(CompareJobs* jobs, const CompareRun* run) {
 }
 
 static JnStatus start_next(CompareJobs* jobs) {
-	while (jobs->next < jobs->plan->run_count && jobs->running < jobs->limit && !interrupted) {
+	while (jobs->next < jobs->plan->run_count && jobs->running < jobs->limit && !app_interrupted) {
 		const CompareRun* run = jobs->order[jobs->next++];
 		if (!jobs->list[run - jobs->plan->runs].is_kept) JN_TRY(start(jobs, run));
 	}
@@ -234,7 +224,7 @@ JnStatus compare_jobs_run(CompareJobs* jobs) {
 	jobs->began = jn_seconds();
 	for (;;) {
 		if (status == JN_OK) status = start_next(jobs);
-		if ((interrupted || status != JN_OK) && !jobs->was_stopped) stop_running(jobs);
+		if ((app_interrupted || status != JN_OK) && !jobs->was_stopped) stop_running(jobs);
 		if (jobs->running == 0) break;
 		compare_progress_show(jobs);
 		wait_for_news();

@@ -10,6 +10,7 @@
 #include "force/kernel.h"
 #include "integrate/integrator.h"
 #include "integrate/properties.h"
+#include "mesh/shape/path.h"
 #include "mesh/shape/shape.h"
 #include "model/motion.h"
 #include "model/system_list.h"
@@ -17,7 +18,7 @@
 #include "solve/solver.h"
 
 static const char help[] =
-	"usage: jounce list [integrators|materials|shapes|elements|obstacles|motions|solvers|contact_solvers|\n"
+	"usage: jounce list [integrators|materials|shapes|elements|obstacles|curves|motions|solvers|contact_solvers|\n"
 	"                    controllers|systems] [--json]\n\n"
 	"Without a word: all of them. Properties of integrators follow from their coefficients, or are measured on an\n"
 	"undamped oscillator:\n"
@@ -118,9 +119,10 @@ typedef struct Catalogue {
 static const Catalogue catalogues[] = {
 	{"integrators", &jn_integrator_list}, {"materials", &jn_law_list},
 	{"shapes", &jn_shape_list},           {"elements", NULL},
-	{"obstacles", &jn_obstacle_list},     {"motions", &jn_motion_list},
-	{"solvers", &jn_solver_list},         {"contact_solvers", &jn_qp_list},
-	{"controllers", &jn_controller_list}, {"systems", &jn_system_list},
+	{"obstacles", &jn_obstacle_list},     {"curves", &jn_path_list},
+	{"motions", &jn_motion_list},         {"solvers", &jn_solver_list},
+	{"contact_solvers", &jn_qp_list},     {"controllers", &jn_controller_list},
+	{"systems", &jn_system_list},
 };
 enum { CATALOGUES = sizeof catalogues / sizeof *catalogues };
 

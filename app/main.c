@@ -18,6 +18,7 @@ typedef struct Command {
 static const Command commands[] = {
 	{"run", app_run, "simulate a scene and record it"},
 	{"compare", app_compare, "run a scene in many variants and compare errors, costs and energies"},
+	{"score", app_score, "find the largest stable step of integrators, over the time of a step"},
 	{"reproduce", app_reproduce, "make figures and tables of the papers again"},
 	{"mesh", app_mesh, "read, check, fill and write a mesh"},
 	{"check", app_check, "read and validate a scene, run nothing"},

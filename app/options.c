@@ -11,8 +11,13 @@
 enum { MOST_THREADS = 1024 };
 
 static const struct option known[] = {
-	{"help", no_argument, NULL, 'h'},      {"output", required_argument, NULL, 'o'},  {"quiet", no_argument, NULL, 'q'},
-	{"set", required_argument, NULL, 's'}, {"threads", required_argument, NULL, 't'}, {0},
+	{"help", no_argument, NULL, 'h'},
+	{"output", required_argument, NULL, 'o'},
+	{"quiet", no_argument, NULL, 'q'},
+	{"set", required_argument, NULL, 's'},
+	{"threads", required_argument, NULL, 't'},
+	{"realtime", optional_argument, NULL, 'r'},
+	{0},
 };
 
 static const char* option_name(void* context, int index) {
@@ -41,6 +46,16 @@ int app_read_count(const char* command, const char* name, int* value) {
 	return EXIT_DONE;
 }
 
+static int read_speed(const char* command, SceneOptions* options) {
+	char* end = NULL;
+	if (strcmp(command, "run") != 0) return app_usage_error(command, "--realtime is an option of 'jounce run'");
+	options->speed = optarg != NULL ? strtod(optarg, &end) : 1;
+	if (optarg == NULL || (end != optarg && *end == '\0' && options->speed >= 1e-6 && options->speed <= 1e6))
+		return EXIT_DONE;
+	return app_usage_error(command, "--realtime: '%s' is no speed from 1e-6 to 1e6; 1 is real time, 0.5 half as fast",
+						   optarg);
+}
+
 static int read_option(const char* command, int option, char** arguments, SceneOptions* options) {
 	switch (option) {
 	case 'h':
@@ -52,6 +67,8 @@ static int read_option(const char* command, int option, char** arguments, SceneO
 	case 'q':
 		options->is_quiet = true;
 		return EXIT_DONE;
+	case 'r':
+		return read_speed(command, options);
 	case 's':
 		options->sets[options->set_count++] = optarg;
 		return EXIT_DONE;

@@ -10,6 +10,7 @@ typedef struct SceneOptions {
 	const char* scene;     ///< path of the scene file
 	const char* directory; ///< -o; NULL: out/<scene name>
 	int threads;           ///< --threads; 0: all
+	double speed;          ///< --realtime, of `run` alone: simulated seconds a wall second; 0: not given
 	bool is_quiet;         ///< --quiet
 	bool wants_help;       ///< --help was given
 	int set_count;

@@ -1,6 +1,5 @@
 // jounce run: simulate a scene and record it, with a progress bar on a terminal and plain lines elsewhere.
 #include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/ioctl.h>
@@ -8,26 +7,22 @@
 
 #include "app.h"
 #include "base/timer.h"
+#include "interrupt.h"
 #include "jounce/scene.h"
 #include "options.h"
 
 static const char help[] =
-	"usage: jounce run SCENE [-o DIR] [--set key=value ...] [--threads N] [--quiet]\n\n"
+	"usage: jounce run SCENE [-o DIR] [--set key=value ...] [--threads N] [--realtime[=SPEED]] [--quiet]\n\n"
 	"  -o, --output DIR  where results go; default out/<name of the scene>\n"
 	"  --set key=value   override any key: --set integrator.method=sdirk2 --set step.dt=33ms\n"
 	"  --threads N       default: as many as there are processors\n"
+	"  --realtime=SPEED  wait for the clock, SPEED simulated seconds a second (1 by default), and report missed "
+	"deadlines\n"
 	"  -q, --quiet       no progress, no summary\n\n"
 	"Writes run.h5, run.xdmf and surface.xdmf (ParaView; obstacles.xdmf too, if there are any), series.csv,\n"
 	"summary.json and plots/, over those of an earlier run.\n"
 	"Ctrl-C finishes the step and completes the files (exit status 0, outcome \"interrupted\"); a second one ends at "
 	"once.";
-
-static volatile sig_atomic_t interrupted = 0;
-
-static void on_interrupt(int signal_number) {
-	(void)signal_number;
-	interrupted = 1;
-}
 
 typedef struct Display {
 	bool is_quiet, is_terminal;
@@ -90,7 +85,23 @@ static bool on_progress(void* user, const JnProgress* p) {
 		print_progress(display, p);
 		display->last = now;
 	}
-	return !interrupted;
+	return !app_interrupted;
+}
+
+static void print_percentiles(const char* what, const double values[JN_PACE_SHARES], double worst) {
+	printf("%s: median %.3g us, 95 %% %.3g, 99 %% %.3g, 99.9 %% %.3g, worst %.3g us\n", what, 1e6 * values[0],
+		   1e6 * values[1], 1e6 * values[2], 1e6 * values[3], 1e6 * worst);
+}
+
+static void print_pace(const JnPaceReport* pace) {
+	const double share = pace->steps > 0 ? 100.0 * (double)pace->missed / (double)pace->steps : 0;
+	printf("real time x %.4g: %ld of %ld deadlines missed (%.3g %%); reached x %.4g, possible x %.4g\n", pace->speed,
+		   pace->missed, pace->steps, share, pace->reached, pace->possible);
+	print_percentiles("a step took", pace->step, pace->step_worst);
+	print_percentiles("it was late by", pace->lateness, pace->lateness_worst);
+	print_percentiles("the system woke it late by", pace->waking, pace->waking_worst);
+	printf("%.3g s stepping, %.3g s waiting; %.3g s recording, during which the clock stood still\n",
+		   pace->stepping_seconds, pace->waiting_seconds, pace->recording_seconds);
 }
 
 static void print_summary(const Display* display, const JnSceneDef* def, const JnRunResult* r, const char* directory) {
@@ -102,6 +113,7 @@ static void print_summary(const Display* display, const JnSceneDef* def, const J
 	printf("\n%.2f Newton iterations a step, %ld factorisations, %ld rejected attempts\n", (double)r->newton / steps,
 		   r->factorizations, r->rejected);
 	printf("energy error |e(t) - e(0)|: %.6g J/kg\n", r->specific_error);
+	if (r->pace.speed > 0) print_pace(&r->pace);
 	printf("wrote %s: run.h5 (%ld frame%s), run.xdmf, surface.xdmf, series.csv, summary.json%s\n", directory, r->frames,
 		   r->frames == 1 ? "" : "s", def->record.plots ? ", plots/" : "");
 }
@@ -113,6 +125,7 @@ static JnStatus simulate(const SceneOptions* options, const JnScene* scene) {
 	snprintf(directory, sizeof directory, "out/%s", def->name);
 	const JnRunOptions run = {.directory = options->directory != NULL ? options->directory : directory,
 							  .threads = options->threads,
+							  .speed = options->speed,
 							  .progress = on_progress,
 							  .user = &display};
 	if (!options->is_quiet)
@@ -129,20 +142,11 @@ static JnStatus simulate(const SceneOptions* options, const JnScene* scene) {
 	return status;
 }
 
-// A second Ctrl-C ends the process at once. A reader of stdout that goes away (`jounce run ... | head`) ends nothing.
-static void handle_signals(void) {
-	const struct sigaction stop = {.sa_handler = on_interrupt, .sa_flags = (int)(SA_RESETHAND | SA_RESTART)};
-	const struct sigaction ignore = {.sa_handler = SIG_IGN};
-	sigaction(SIGINT, &stop, NULL);
-	sigaction(SIGTERM, &stop, NULL);
-	sigaction(SIGPIPE, &ignore, NULL);
-}
-
 static int run_scene(const SceneOptions* options) {
 	JnScene* scene = NULL;
 	JnStatus status = jn_scene_load(options->scene, options->set_count, options->sets, &scene);
 	if (status != JN_OK) return app_exit_status(status);
-	handle_signals();
+	app_catch_interrupts(SA_RESTART);
 	status = simulate(options, scene);
 	jn_scene_destroy(scene);
 	return app_exit_status(status);

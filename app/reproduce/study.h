@@ -41,7 +41,8 @@ struct Study {
 };
 
 extern const Study study_ho_fig1, study_ho_fig3, study_ho_fig4, study_ho_fig5, study_ho_fig6, study_ho_fig7,
-	study_ho_fig8, study_ho_table1, study_ad_fig1, study_ad_fig2, study_ad_cloth, study_adaptive_beam, study_notch;
+	study_ho_fig8, study_ho_table1, study_ad_fig1, study_ad_fig2, study_ad_cloth, study_adaptive_beam, study_notch,
+	study_ex_phase, study_ex_table;
 extern const Study* const study_list[]; ///< all of these, and NULL at the end
 
 /// Add a case: `scene` is a file in the folder of scenes, `name` its folder, `label` for people, `steps` what it costs.

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -141,7 +142,7 @@ static void each_list_is_text_and_json(void** state) {
 	static const char* const lists[][2] = {
 		{"integrators", "sdirk2"}, {"obstacles", "capsule"}, {"materials", "stable_neo_hookean"},
 		{"shapes", "box"},         {"elements", "tet10"},    {"motions", "keyframes"},
-		{"solvers", "direct"},     {"controllers", "fixed"}};
+		{"curves", "helix"},       {"solvers", "direct"},    {"controllers", "fixed"}};
 	for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i) {
 		char condition[128];
 		Outcome text = RUN(0, "list", lists[i][0]), json = RUN(0, "list", lists[i][0], "--json");
@@ -160,7 +161,7 @@ static void all_lists_are_one_json_object(void** state) {
 	(void)state;
 	Outcome outcome = RUN(0, "list", "--json");
 	file_write(path_join(folder, "list.json"), outcome.out);
-	expect_json("list.json", "len(d)==10 and all(len(rows)>0 for rows in d.values())");
+	expect_json("list.json", "len(d)==11 and all(len(rows)>0 for rows in d.values())");
 	outcome_free(&outcome);
 }
 
@@ -411,6 +412,67 @@ static void interrupt_finishes_the_step_and_the_files(void** state) {
 	table_free(&table);
 }
 
+static double number_after(const char* text, const char* name) {
+	const char* at = strstr(text, name);
+	if (at == NULL) fail_msg("'%s' is not in: %s", name, text);
+	return strtod(at + strlen(name), NULL);
+}
+
+// A step of 10 ms lasts 100 s at this speed: who is asked to stop then does not wait for the clock.
+static void interrupt_ends_a_wait_for_the_clock(void** state) {
+	(void)state;
+	const char* const words[] = {"run", "block.yaml", "--realtime=1e-4", NULL};
+	Process process = command_start(folder, words);
+	wait_for("out/block/series.csv", process);
+	usleep(200000);
+	const time_t began = time(NULL);
+	assert_int_equal(kill(process.id, SIGINT), 0);
+	Outcome outcome = command_wait(process);
+	assert_int_equal(outcome.status, 0);
+	outcome_free(&outcome);
+	assert_true(time(NULL) - began < 20);
+	expect_json("out/block/summary.json", "d['outcome']=='interrupted'");
+}
+
+// 10 steps of 10 ms at twice the speed of the clock: the run waits for it, and says how it kept up.
+static void a_run_in_real_time_waits_for_the_clock_and_reports_deadlines(void** state) {
+	(void)state;
+	Outcome outcome = RUN(0, "run", "block.yaml", "-o", "paced", "--realtime=2");
+	expect_part(outcome.out, "of 10 deadlines missed");
+	expect_part(outcome.out, "a step took: median");
+	expect_part(outcome.out, "it was late by: median");
+	expect_part(outcome.out, "woke it late by: median");
+	outcome_free(&outcome);
+	expect_json("paced/summary.json", "d['realtime']['steps']==10 and d['realtime']['speed']==2");
+	char* summary = file_read(path_join(folder, "paced/summary.json"));
+	const double stepping = number_after(summary, "\"stepping_seconds\": ");
+	const double waiting = number_after(summary, "\"waiting_seconds\": ");
+	assert_true(stepping > 0 && stepping + waiting > 0.0499); // 0.1 s at twice the speed, however fast the steps are
+	assert_true(number_after(summary, "\"reached\": ") < 2.01);
+	assert_true(number_after(summary, "\"wall_seconds\": ") > 0.044); // the last step begins after 0.09 s
+	const double missed = number_after(summary, "\"missed\": ");
+	assert_true(missed >= 0 && missed <= 10);
+	assert_true(fabs(number_after(summary, "\"missed_share\": ") - missed / 10) < 1e-12);
+	const double median = number_after(summary, "\"step_seconds\": {\"p50\": ");
+	assert_true(median > 0 && median < stepping);
+	free(summary);
+}
+
+static void speeds_that_are_none_are_refused(void** state) {
+	(void)state;
+	REFUSED(2, "--realtime: 'fast' is no speed", "run", "block.yaml", "--realtime=fast");
+	REFUSED(2, "--realtime: '0' is no speed", "run", "block.yaml", "--realtime=0");
+	REFUSED(2, "--realtime is an option of 'jounce run'", "check", "block.yaml", "--realtime");
+}
+
+static void a_run_without_a_pace_says_nothing_of_deadlines(void** state) {
+	(void)state;
+	Outcome outcome = RUN(0, "run", "block.yaml", "-o", "free");
+	assert_null(strstr(outcome.out, "deadline"));
+	outcome_free(&outcome);
+	expect_json("free/summary.json", "'realtime' not in d");
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
 int main(void) {
@@ -445,6 +507,10 @@ int main(void) {
 		TEST(failing_run_keeps_its_last_good_state),
 		TEST(output_to_a_full_disk_is_a_file_failure),
 		TEST(interrupt_finishes_the_step_and_the_files),
+		TEST(interrupt_ends_a_wait_for_the_clock),
+		TEST(a_run_in_real_time_waits_for_the_clock_and_reports_deadlines),
+		TEST(speeds_that_are_none_are_refused),
+		TEST(a_run_without_a_pace_says_nothing_of_deadlines),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

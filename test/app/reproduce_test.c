@@ -56,9 +56,9 @@ static void expect_near(double value, double expected, double tolerance) {
 
 static void list_names_every_study(void** state) {
 	(void)state;
-	static const char* const names[] = {"ho-fig1 ",  "ho-fig3 ",       "ho-fig4 ",   "ho-fig5 ", "ho-fig6 ",
-										"ho-fig7 ",  "ho-fig8 ",       "ho-table1 ", "ad-fig1 ", "ad-fig2 ",
-										"ad-cloth ", "adaptive-beam ", "notch "};
+	static const char* const names[] = {"ho-fig1 ",  "ho-fig3 ",       "ho-fig4 ",   "ho-fig5 ",  "ho-fig6 ",
+										"ho-fig7 ",  "ho-fig8 ",       "ho-table1 ", "ad-fig1 ",  "ad-fig2 ",
+										"ad-cloth ", "adaptive-beam ", "notch ",     "ex-phase ", "ex-table "};
 	Outcome outcome = REPRODUCE(0, "list");
 	for (size_t i = 0; i < sizeof names / sizeof *names; ++i) expect_part(outcome.out, names[i]);
 	outcome_free(&outcome);
@@ -136,6 +136,52 @@ static void page_and_tables_are_those_of_runs_which_a_second_call_keeps(void** s
 	free(second);
 }
 
+// The curve through (1.6, 0) has the energy of that start everywhere, and the half step leaves it outwards.
+static void portraits_of_a_pendulum_lie_over_curves_of_equal_energy(void** state) {
+	(void)state;
+	double theta, omega;
+	int points = 0;
+	Outcome outcome = REPRODUCE(0, "ex-phase", "--quick", "--scenes", JN_SOURCE_DIR "/scenes", "-o", "r", "-q");
+	outcome_free(&outcome);
+	char* curves = file_read(path_join(folder, "r/ex-phase/curves.csv"));
+	const char* at = strstr(curves, "\n\n\n"); // behind the first block
+	assert_non_null(at);
+	for (at += 3; sscanf(at, "%lf,%lf", &theta, &omega) == 2 && *at != '\n'; at = strchr(at, '\n') + 1, ++points)
+		expect_near(0.5 * omega * omega - 9.81 * cos(theta), -9.81 * cos(1.6), 1e-4); // six digits of numbers up to 5
+	assert_in_range(points, 300, 500);
+	free(curves);
+	char* claims = file_read(path_join(folder, "r/ex-phase/claims.csv"));
+	expect_part(claims, "(midpoint) against");
+	expect_part(claims, "(explicit_euler),confirmed");
+	expect_part(claims, "not known"); // of pictures that the quick form leaves out
+	free(claims);
+	Table series = table_read(path_join(folder, "r/ex-phase/runs/half_steps_half_step_1.6/series.csv"));
+	assert_true(table_number(&series, series.rows - 1, "total") > 1.1 * table_number(&series, 1, "total"));
+	table_free(&series);
+	assert_true(path_exists(path_join(folder, "r/ex-phase/half_steps.gnuplot")));
+}
+
+// The order of Forest and Ruth is four, whatever the paper says; the limits are those of the board's own CSV.
+static void scoreboard_of_a_thread_judges_what_the_paper_says(void** state) {
+	(void)state;
+	Outcome outcome = REPRODUCE(0, "ex-table", "--quick", "--scenes", JN_SOURCE_DIR "/scenes", "-o", "r", "-q");
+	assert_string_equal(outcome.out, "");
+	outcome_free(&outcome);
+	char* claims = file_read(path_join(folder, "r/ex-table/claims_plain.csv"));
+	expect_part(claims, "Forest-Ruth is accurate up to the third order,measured order 4.0");
+	expect_part(claims, "it is a method of fourth order,refuted");
+	assert_null(strstr(claims, "not known"));
+	free(claims);
+	Table board = table_read(path_join(folder, "r/ex-table/relaxed.csv"));
+	assert_int_equal(board.rows, 10);
+	assert_true(table_number(&board, 1, "score") == 1); // explicit Euler
+	table_free(&board);
+	char* page = file_read(path_join(folder, "r/ex-table/page.md"));
+	expect_part(page, "--time 0.1s --set 'bodies[0].shape.links=6' --set 'relax={}'");
+	free(page);
+	assert_true(path_exists(path_join(folder, "r/ex-table/undamped/score.md")));
+}
+
 // ---- measures ----
 
 static void span_is_highest_minus_lowest_within_the_window(void** state) {
@@ -210,6 +256,8 @@ int main(void) {
 		cmocka_unit_test_setup_teardown(misspelt_name_is_refused_with_the_right_one, set_up, tear_down),
 		cmocka_unit_test_setup_teardown(failed_runs_are_on_the_page, set_up, tear_down),
 		cmocka_unit_test_setup_teardown(page_and_tables_are_those_of_runs_which_a_second_call_keeps, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(portraits_of_a_pendulum_lie_over_curves_of_equal_energy, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(scoreboard_of_a_thread_judges_what_the_paper_says, set_up, tear_down),
 		cmocka_unit_test(span_is_highest_minus_lowest_within_the_window),
 		cmocka_unit_test(cubic_surface_has_no_wrinkles),
 		cmocka_unit_test(wave_as_long_as_the_window_is_all_wrinkle),
