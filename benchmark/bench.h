@@ -73,6 +73,8 @@ void bench_kernels(const Bench* bench);
 /// Assembly, products and the direct solver, on whole models.
 JnStatus bench_models(const Bench* bench);
 JnStatus bench_steps(const Bench* bench);
+/// Small explicit steps of threads.
+JnStatus bench_threads(const Bench* bench);
 /// Peridynamic bonds without a matrix.
 JnStatus bench_bonds(const Bench* bench);
 /// Contact solvers on the problems that scenes make.
@@ -80,7 +82,8 @@ JnStatus bench_contact(const Bench* bench);
 
 // ---- shared pieces ----
 
-typedef enum Verb { ENERGY, FORCE, TANGENT, DEFINITE, VERBS } Verb;
+/// PRODUCT: of the definite form, as damping takes it; of kernels that have one.
+typedef enum Verb { ENERGY, FORCE, TANGENT, DEFINITE, ASSEMBLED_VERBS, PRODUCT = ASSEMBLED_VERBS, VERBS } Verb;
 
 extern const char* const verb_names[VERBS];
 

@@ -4,11 +4,11 @@
 #include <string.h>
 
 #include "bench.h"
-#include "force/cloth/cloth.h"
+#include "force/constraint/constraint.h"
 #include "force/solid.h"
 #include "mesh/shape/shape.h"
 
-const char* const verb_names[VERBS] = {"energy", "force", "tangent", "definite"};
+const char* const verb_names[VERBS] = {"energy", "force", "tangent", "definite", "product"};
 
 enum { FORCE_CHUNK = 64, TANGENT_CHUNK = 16 }; // elements, as in the assembly
 
@@ -20,7 +20,9 @@ void kernel_run(void* context) {
 	const int step = (is_tangent ? TANGENT_CHUNK : FORCE_CHUNK) / kernel->width;
 	for (int first = 0; first < run->batches; first += step) {
 		const int last = first + step < run->batches ? first + step : run->batches;
-		if (is_tangent)
+		if (run->verb == PRODUCT)
+			kernel->product(group, first, last, run->x, true, run->x, run->out);
+		else if (is_tangent)
 			kernel->tangent(group, first, last, run->x, run->verb == DEFINITE, run->out);
 		else
 			(run->verb == FORCE ? kernel->force : kernel->energy)(group, first, last, run->x, run->out);
@@ -65,26 +67,56 @@ static JnStatus make_problem(const JnKernel* kernel, Problem* problem) {
 	return JN_OK;
 }
 
-// A strip of 512 elements of a kernel of cloth, folded and strained: node i at (i/2, i mod 2) times the edge.
-static JnStatus make_strip(JnClothKernel which, int width, Problem* problem) {
-	static const double rest[JN_CLOTH_COUNT][JN_CLOTH_MOST_REALS] = {[JN_CLOTH_spring] = {1.1, 50},
-																	 [JN_CLOTH_stretch] = {0, -1, 1, -0.5, 300, 200},
-																	 [JN_CLOTH_shear] = {0, -1, 1, -0.5, 40},
-																	 [JN_CLOTH_bend] = {0, 1, 1e-3}};
-	enum { ELEMENTS = 512, NODES = ELEMENTS + 4 };
-	const JnKernel* kernel = jn_cloth_kernel(which, width);
-	JnClothElement elements[ELEMENTS];
-	double nodes[3 * NODES];
-	for (int i = 0; i < 3 * NODES; ++i) nodes[i] = i % 3 == 0 ? 0.5 * (i / 3) : i % 3 == 1 ? i / 3 % 2 : 0;
-	for (int e = 0; e < ELEMENTS; ++e) {
-		const int hinge[4] = {e, e + 3, e + 2, e + 1}, others[4] = {e, e + 1, e + 2, 0};
-		memcpy(elements[e].nodes, which == JN_CLOTH_bend ? hinge : others, sizeof hinge);
-		memcpy(elements[e].rest, rest[which], sizeof rest[which]);
+// Rest numbers of sections with sides of 1 and links of 2, unstrained.
+#define TORSION_REST -0.57735026918962576, 1.1547005383792515, 0, 1, 0.01
+#define SKEW_REST -0.57735026918962576, 1.1547005383792515, 0, 0, 5
+#define SIDES_REST 1, 50, 1, 50, 1, 50
+#define LINES_REST 2, 50, 2, 50, 2, 50
+#define DIAGONALS_REST 2.2360679775, 50, 2.2360679775, 50, 2.2360679775, 50
+#define CELL_REST -0.2886751345948129, 1000, 0
+#define GUARD_REST -0.11547005383792515, 0, 1000
+
+static const double constraint_rest[JN_CONSTRAINT_COUNT][JN_CONSTRAINT_MOST_REALS] = {
+	[JN_CONSTRAINT_spring] = {1.1, 50},
+	[JN_CONSTRAINT_stretch] = {0, -1, 1, -0.5, 300, 200},
+	[JN_CONSTRAINT_shear] = {0, -1, 1, -0.5, 40},
+	[JN_CONSTRAINT_bend] = {0, 1, 1e-3},
+	[JN_CONSTRAINT_strut] = {1.1, 50},
+	[JN_CONSTRAINT_angle] = {0, 1e-3},
+	[JN_CONSTRAINT_area] = {0.5, 50},
+	[JN_CONSTRAINT_volume] = {CELL_REST},
+	[JN_CONSTRAINT_torsion] = {TORSION_REST},
+	[JN_CONSTRAINT_skew] = {SKEW_REST},
+	[JN_CONSTRAINT_thread_link] = {SIDES_REST, LINES_REST, DIAGONALS_REST, CELL_REST, CELL_REST, CELL_REST,
+								   TORSION_REST},
+	[JN_CONSTRAINT_rod_link] = {SIDES_REST, LINES_REST, GUARD_REST, GUARD_REST, GUARD_REST, TORSION_REST, SKEW_REST}};
+
+enum { ROW_ELEMENTS = 512, ROW_NODES = 3 * ROW_ELEMENTS + 4 };
+
+// 512 elements of a kernel, each from a node, or from a frame, to those behind it, strained: a folded strip of cloth with
+// node i at (i/2, i mod 2) times the edge, or a thread whose frames are triangles with sides of 1.
+static JnStatus make_row(JnConstraintKernel which, int width, Problem* problem) {
+	static const double section[3][2] = {{0, 0}, {1, 0}, {0.5, 0.8660254037844386}};
+	const JnKernel* kernel = jn_constraint_kernel(which, width);
+	const bool is_thread = kernel->nodes == 6 || which == JN_CONSTRAINT_volume;
+	JnConstraint* elements;
+	double nodes[3 * ROW_NODES];
+	JN_NEW(&problem->arena, elements, ROW_ELEMENTS);
+	for (int i = 0; i < ROW_NODES; ++i) {
+		const double *corner = section[i % 3], strip[3] = {0.5 * i, i % 2, 0},
+					 frame[3] = {2 * (i / 3), corner[0], corner[1]};
+		memcpy(nodes + 3 * (ptrdiff_t)i, is_thread ? frame : strip, sizeof frame);
 	}
-	JN_TRY(jn_cloth_group_create(kernel, ELEMENTS, elements, &problem->arena, &problem->group));
-	JN_NEW(&problem->arena, problem->x, 3 * NODES);
+	for (int e = 0; e < ROW_ELEMENTS; ++e) {
+		const int hinge[4] = {e, e + 3, e + 2, e + 1};
+		for (int i = 0; i < kernel->nodes; ++i) elements[e].nodes[i] = (is_thread ? 3 * e : e) + i;
+		if (which == JN_CONSTRAINT_bend) memcpy(elements[e].nodes, hinge, sizeof hinge);
+		memcpy(elements[e].rest, constraint_rest[which], sizeof constraint_rest[which]);
+	}
+	JN_TRY(jn_constraint_group_create(kernel, ROW_ELEMENTS, elements, &problem->arena, &problem->group));
+	JN_NEW(&problem->arena, problem->x, sizeof nodes / sizeof *nodes);
 	JN_NEW(&problem->arena, problem->out, KERNEL_RUN_REALS);
-	deform(NODES, nodes, 1, problem->x);
+	deform(ROW_NODES, nodes, 1, problem->x);
 	return JN_OK;
 }
 
@@ -92,7 +124,7 @@ static void measure_verb(const Bench* bench, const Problem* problem, Verb verb) 
 	const JnGroup* group = &problem->group;
 	char name[64], size[24];
 	snprintf(name, sizeof name, "%s.%s.%s",
-			 group->kernel->name != NULL ? "cloth" : jn_shape_info[group->kernel->shape].name,
+			 group->kernel->name != NULL ? "constraint" : jn_shape_info[group->kernel->shape].name,
 			 group->kernel->name != NULL ? group->kernel->name : group->kernel->law->row.name, verb_names[verb]);
 	snprintf(size, sizeof size, "%d", group->count);
 	if (!bench_wants(bench, "kernel", name, size)) return;
@@ -111,13 +143,13 @@ static void measure_pair(const Bench* bench, JnShape shape, const JnLaw* law, in
 	const JnKernel* kernel = jn_kernel_find(shape, law, width);
 	Problem problem = {0};
 	if (kernel != NULL && make_problem(kernel, &problem) == JN_OK)
-		for (Verb verb = 0; verb < VERBS; verb++) measure_verb(bench, &problem, verb);
+		for (Verb verb = 0; verb < ASSEMBLED_VERBS; verb++) measure_verb(bench, &problem, verb);
 	jn_arena_free(&problem.arena);
 }
 
-static void measure_cloth(const Bench* bench, JnClothKernel which, int width) {
+static void measure_constraint(const Bench* bench, JnConstraintKernel which, int width) {
 	Problem problem = {0};
-	if (jn_cloth_kernel(which, width) != NULL && make_strip(which, width, &problem) == JN_OK)
+	if (jn_constraint_kernel(which, width) != NULL && make_row(which, width, &problem) == JN_OK)
 		for (Verb verb = 0; verb < VERBS; verb++) measure_verb(bench, &problem, verb);
 	jn_arena_free(&problem.arena);
 }
@@ -128,6 +160,6 @@ void bench_kernels(const Bench* bench) {
 			measure_pair(bench, shape, (const JnLaw*)jn_law_list.rows[i], jn_kernel_best_width());
 	for (int width = jn_kernel_best_width() / 2; width >= 2; width /= 2)
 		measure_pair(bench, JN_HEX8, &jn_law_stable_neo_hookean, width);
-	for (JnClothKernel which = 0; which < JN_CLOTH_COUNT; which++)
-		for (int width = jn_kernel_best_width(); width >= 2; width /= 2) measure_cloth(bench, which, width);
+	for (JnConstraintKernel which = 0; which < JN_CONSTRAINT_COUNT; which++)
+		for (int width = jn_kernel_best_width(); width >= 2; width /= 2) measure_constraint(bench, which, width);
 }

@@ -17,7 +17,8 @@
 static const char help[] =
 	"usage: jounce_bench [--csv FILE] [--threads N] [WORD ...]\n\n"
 	"Measures the rows whose group.name.size contains one of the words, or all of them (about 4 minutes), and prints\n"
-	"medians with [fastest, slowest]. Groups: machine, kernel, model, step, bond, qp. Sizes of model and step: beam, "
+	"medians with [fastest, slowest]. Groups: machine, kernel, model, step, thread, bond, qp. Sizes of model and step: "
+	"beam, "
 	"block16, block32.\n\n"
 	"  --csv FILE   write the rows there too\n"
 	"  --threads N  threads to compare with one; the processors there are unless given\n";
@@ -73,6 +74,7 @@ static JnStatus run_groups(Bench* bench) {
 	bench_kernels(bench);
 	JN_TRY(bench_models(bench));
 	JN_TRY(bench_steps(bench));
+	JN_TRY(bench_threads(bench));
 	JN_TRY(bench_bonds(bench));
 	return bench_contact(bench);
 }
