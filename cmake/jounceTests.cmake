@@ -51,7 +51,8 @@ else()
 	message(STATUS "without Ipopt: its test of contact solvers is skipped (Debian: apt-get install coinor-libipopt-dev)")
 endif()
 
-if(TARGET jounce_command)
+# What is built against an installed library has no sanitizer to link.
+if(TARGET jounce_command AND NOT JN_SANITIZE)
 	add_test(NAME examples COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/examples/build_and_run
 		${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/examples_test)
 	set_tests_properties(examples PROPERTIES TIMEOUT 300)
