@@ -69,11 +69,8 @@ int compare_options_read(int count, char** arguments, CompareOptions* options) {
 		if (status != EXIT_DONE) return status;
 	}
 	if (options->wants_help) return EXIT_DONE;
-	if (optind == count) return app_usage_error("compare", "no scene file is given");
-	if (optind + 1 < count)
-		return app_usage_error("compare", "one scene at a time; '%s' is one too many", arguments[optind + 1]);
-	options->scene = arguments[optind];
-	if (options->vary.count > 0) return EXIT_DONE;
+	const int status = app_read_scene("compare", count, arguments, &options->scene);
+	if (status != EXIT_DONE || options->vary.count > 0) return status;
 	return app_usage_error("compare", "nothing is varied; say what to compare, such as --vary step.dt=10ms,5ms");
 }
 

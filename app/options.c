@@ -46,6 +46,14 @@ int app_read_count(const char* command, const char* name, int* value) {
 	return EXIT_DONE;
 }
 
+int app_read_scene(const char* command, int count, char** arguments, const char** scene) {
+	if (optind == count) return app_usage_error(command, "no scene file is given");
+	if (optind + 1 < count)
+		return app_usage_error(command, "one scene at a time; '%s' is one too many", arguments[optind + 1]);
+	*scene = arguments[optind];
+	return EXIT_DONE;
+}
+
 static int read_speed(const char* command, SceneOptions* options) {
 	char* end = NULL;
 	if (strcmp(command, "run") != 0) return app_usage_error(command, "--realtime is an option of 'jounce run'");
@@ -89,12 +97,7 @@ int scene_options_read(const char* command, int count, char** arguments, SceneOp
 		const int status = read_option(command, option, arguments, options);
 		if (status != EXIT_DONE) return status;
 	}
-	if (options->wants_help) return EXIT_DONE;
-	if (optind == count) return app_usage_error(command, "no scene file is given");
-	if (optind + 1 < count)
-		return app_usage_error(command, "one scene at a time; '%s' is one too many", arguments[optind + 1]);
-	options->scene = arguments[optind];
-	return EXIT_DONE;
+	return options->wants_help ? EXIT_DONE : app_read_scene(command, count, arguments, &options->scene);
 }
 
 void scene_options_free(SceneOptions* options) {

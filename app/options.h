@@ -24,6 +24,9 @@ void scene_options_free(SceneOptions* options);
 /// Say what is wrong with the option that getopt has just refused, before `optind`; returns EXIT_BAD_INPUT.
 int app_refuse_option(const char* command, const struct option* options, char** arguments);
 
+/// The one scene file that stands behind the options, which getopt_long has read.
+int app_read_scene(const char* command, int count, char** arguments, const char** scene);
+
 /// Read `optarg` as a count of threads or processes, at least 1. Returns EXIT_DONE, or EXIT_BAD_INPUT after a message.
 int app_read_count(const char* command, const char* name, int* value);
 

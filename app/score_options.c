@@ -69,12 +69,7 @@ int score_options_read(int count, char** arguments, ScoreOptions* options) {
 		const int status = read_option(option, arguments, options);
 		if (status != EXIT_DONE) return status;
 	}
-	if (options->wants_help) return EXIT_DONE;
-	if (optind == count) return app_usage_error("score", "no scene file is given");
-	if (optind + 1 < count)
-		return app_usage_error("score", "one scene at a time; '%s' is one too many", arguments[optind + 1]);
-	options->scene = arguments[optind];
-	return EXIT_DONE;
+	return options->wants_help ? EXIT_DONE : app_read_scene("score", count, arguments, &options->scene);
 }
 
 void score_options_free(ScoreOptions* options) {
