@@ -1,7 +1,7 @@
 /// @file collision_rules_test.c
 /// What collisions promise of themselves: refused attempts leave no trace, steps allocate nothing, and what cannot be is refused.
-#include "control/controller.h"
 #include "pass/collision_case.h"
+#include "pass/script_controller.h"
 #include "pass/suture.h"
 
 enum { MOST_STEPS = 8000 };
@@ -21,28 +21,6 @@ static const char scene[] =
 	"obstacles: [{name: floor, shape: {type: plane, point: [0, -0.005, 0]}}]\n"
 	"collision: {friction: 0.3, residue: %g}\n"
 	"suture: {thread: thread, body: block, friction: 0.2, hold: 1 mN}\n";
-
-/// Steps of given sizes.
-typedef struct Script {
-	int count, next;
-	double sizes[MOST_STEPS];
-} Script;
-
-static double script_first(JnController* self) {
-	return ((const Script*)self->options)->sizes[0];
-}
-
-static JnStatus script_judge(JnController* self, JnStep* step, JnStatus outcome, JnVerdict* verdict) {
-	Script* script = (Script*)self->options;
-	(void)step;
-	assert_int_equal(outcome, JN_OK);
-	++script->next;
-	*verdict = (JnVerdict){.accepted = true, .dt = script->next < script->count ? script->sizes[script->next] : 1};
-	return JN_OK;
-}
-
-static const JnControllerType script_type = {
-	.row = {.name = "script", .doc = "steps of given sizes"}, .first = script_first, .judge = script_judge};
 
 static void replay(const char* method, const char* step, double residue) {
 	static Script script;

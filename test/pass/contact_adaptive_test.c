@@ -1,7 +1,7 @@
 /// @file contact_adaptive_test.c
 /// Contact with steps that are chosen: attempts that are refused leave nothing in it, and frames between steps show no overlap.
-#include "control/controller.h"
 #include "pass/pass_case.h"
+#include "pass/script_controller.h"
 
 enum { MOST_STEPS = 4000 };
 
@@ -13,28 +13,6 @@ static const char scene[] =
 	"bodies:\n"
 	"  - {name: box, shape: {type: box, origin: [0, 0.3, 0], size: [0.2, 0.2, 0.2], cells: [2, 2, 2]}, "
 	"material: {law: stable_neo_hookean, density: 1000, young: 2e5, poisson: 0.3}, damping: {beta: 2 ms}}\n";
-
-/// Steps of given sizes.
-typedef struct Script {
-	int count, next;
-	double sizes[MOST_STEPS];
-} Script;
-
-static double script_first(JnController* self) {
-	return ((const Script*)self->options)->sizes[0];
-}
-
-static JnStatus script_judge(JnController* self, JnStep* step, JnStatus outcome, JnVerdict* verdict) {
-	Script* script = (Script*)self->options;
-	(void)step;
-	assert_int_equal(outcome, JN_OK);
-	++script->next;
-	*verdict = (JnVerdict){.accepted = true, .dt = script->next < script->count ? script->sizes[script->next] : 1};
-	return JN_OK;
-}
-
-static const JnControllerType script_type = {
-	.row = {.name = "script", .doc = "steps of given sizes"}, .first = script_first, .judge = script_judge};
 
 static void replay(const char* method, const char* step, const char* prediction) {
 	static Script script;
