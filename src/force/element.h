@@ -1,6 +1,7 @@
 /// @file element.h
 /// Reference elements: weights and gradients of the shape functions at the quadrature points, as constants.
-/// tet4 and tet10 live on xi, eta, zeta >= 0 with sum <= 1; hex8 on [-1, 1]^3. Node order is that of VTK.
+/// tet4 and tet10 live on xi, eta, zeta >= 0 with sum <= 1; hex8 on [-1/8, 1/8]^3, where gradients are sums of node values
+/// without factors. Node order is that of VTK.
 #ifndef JN_FORCE_ELEMENT_H
 #define JN_FORCE_ELEMENT_H
 
@@ -47,11 +48,11 @@ static const JnElement jn_element_tet10 = {
 				 JN_TET10_POINT(JN_TET10_FAR, JN_TET10_FAR, JN_TET10_FAR, JN_TET10_NEAR)},
 };
 
-// Gradient at (x, y, z) of N = (1 + i xi)(1 + j eta)(1 + k zeta)/8.
+// Gradient at 1/8 (x, y, z) of N = (1 + 8 i xi)(1 + 8 j eta)(1 + 8 k zeta)/8.
 #define JN_HEX8_NODE(i, j, k, x, y, z)                                                                                 \
 	{                                                                                                                  \
-		0.125 * (i) * (1 + (j) * (y)) * (1 + (k) * (z)), 0.125 * (j) * (1 + (i) * (x)) * (1 + (k) * (z)),              \
-			0.125 * (k) * (1 + (i) * (x)) * (1 + (j) * (y))                                                            \
+		(i) * (1 + (j) * (y)) * (1 + (k) * (z)), (j) * (1 + (i) * (x)) * (1 + (k) * (z)),                              \
+			(k) * (1 + (i) * (x)) * (1 + (j) * (y))                                                                    \
 	}
 #define JN_HEX8_POINT(x, y, z)                                                                                         \
 	{                                                                                                                  \
@@ -65,7 +66,7 @@ static const JnElement jn_element_tet10 = {
 static const JnElement jn_element_hex8 = {
 	.nodes = 8,
 	.points = 8,
-	.weight = 1,
+	.weight = 1.0 / 512.0,
 	.gradient = {JN_HEX8_POINT(-JN_GAUSS, -JN_GAUSS, -JN_GAUSS), JN_HEX8_POINT(JN_GAUSS, -JN_GAUSS, -JN_GAUSS),
 				 JN_HEX8_POINT(-JN_GAUSS, JN_GAUSS, -JN_GAUSS), JN_HEX8_POINT(JN_GAUSS, JN_GAUSS, -JN_GAUSS),
 				 JN_HEX8_POINT(-JN_GAUSS, -JN_GAUSS, JN_GAUSS), JN_HEX8_POINT(JN_GAUSS, -JN_GAUSS, JN_GAUSS),

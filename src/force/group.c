@@ -1,5 +1,6 @@
 // Builds element groups: rest data in batches, with J0 = sum_i X_i (x) dN_i/dxi at each quadrature point.
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/log.h"
@@ -21,64 +22,157 @@ static void rest_jacobian(const JnElement* element, const JnMesh* mesh, int cell
 	}
 }
 
+/// Rest data of a point: L = B Q lower triangular, with B = J^-1 and Q a rotation. F Q = (dx/dxi) L is as good as F = dx/dX
+/// for laws that do not tell directions at rest apart; those that have axes keep Q in the group's memory.
+typedef struct Rest {
+	double determinant, L[6], Q[3][3];
+} Rest;
+
+static double dot(const double a[3], const double b[3]) {
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static Rest rest_of(double J[3][3]) {
+	Rest rest;
+	double B[3][3], q[3][3];
+	rest.determinant = mat3_invert(J, B);
+	const double length = sqrt(dot(B[0], B[0]));
+	for (int c = 0; c < 3; c++) q[0][c] = B[0][c] / length;
+	const double along = dot(B[1], q[0]);
+	for (int c = 0; c < 3; c++) q[1][c] = B[1][c] - along * q[0][c];
+	const double rest_length = sqrt(dot(q[1], q[1]));
+	for (int c = 0; c < 3; c++) q[1][c] /= rest_length;
+	for (int c = 0; c < 3; c++) q[2][c] = mat3_cofactor(q, 2, c);
+	for (int r = 0, k = 0; r < 3; r++)
+		for (int c = 0; c <= r; c++, k++) rest.L[k] = dot(B[r], q[c]);
+	for (int k = 0; k < 9; k++) rest.Q[k / 3][k % 3] = q[k % 3][k / 3];
+	return rest;
+}
+
+static JnStatus check_cell(const JnElement* element, const JnMesh* mesh, int cell) {
+	const double volume = jn_mesh_cell_volume(mesh, cell); // quadrature points alone miss exchanged corners of a tet10
+	for (int p = 0; p < element->points; p++) {
+		double J[3][3];
+		rest_jacobian(element, mesh, cell, p, J);
+		const Rest rest = rest_of(J);
+		if (rest.determinant > 0 && volume > 0 && isfinite(rest.L[0])) continue;
+		const double scale = mesh->shape == JN_HEX8 ? 512 : 1; // of a cube with edges of 2, as people know it
+		return jn_error(JN_BAD_INPUT,
+						"cell %d of the %s mesh is flat or inside out: its volume is %g m^3 and its Jacobian at "
+						"quadrature point %d is %g, both must be > 0; check the order of its nodes",
+						cell, jn_shape_info[mesh->shape].name, volume, p, rest.determinant / scale);
+	}
+	return JN_OK;
+}
+
+/// Whether each cell has the same Jacobian at all points, to what positions can tell.
+static bool are_parallelepipeds(const JnElement* element, const JnMesh* mesh) {
+	for (int cell = 0; cell < mesh->cell_count; cell++) {
+		double first[3][3], J[3][3], size = 0;
+		rest_jacobian(element, mesh, cell, 0, first);
+		for (int k = 0; k < 9; k++) size = fmax(size, fabs(first[k / 3][k % 3]));
+		for (int p = 1; p < element->points; p++) {
+			rest_jacobian(element, mesh, cell, p, J);
+			for (int k = 0; k < 9; k++)
+				if (!(fabs(J[k / 3][k % 3] - first[k / 3][k % 3]) <= 1e-12 * size)) return false;
+		}
+	}
+	return true;
+}
+
+static void fill_point(JnGroup* group, int slot, int p, const Rest* rest, double weight) {
+	const int width = group->kernel->width, reals = group->kernel->rest_reals,
+			  frozen_reals = group->kernel->frozen_reals;
+	const int lane = slot % width;
+	const ptrdiff_t batch = slot / width;
+	if (frozen_reals > 0) { // F Q = Q at rest
+		double* frozen = group->frozen + (batch * group->kernel->points + p) * frozen_reals * width + lane;
+		for (int k = 0; k < frozen_reals; k++) frozen[k * width] = rest->Q[k / 3][k % 3];
+	}
+	if (p >= group->rest_points) return;
+	double* to = group->rest + (batch * group->rest_points + p) * reals * width + lane;
+	float* single = group->rest_single + (batch / 2 * group->rest_points + p) * 12 * width + batch % 2 * width + lane;
+	for (int k = 0; k < 6; k++) {
+		to[k * width] = rest->L[k];
+		single[2 * k * width] = (float)(sqrt(weight) * rest->L[k]);
+	}
+	to[6 * width] = weight;
+}
+
 /// Fill one lane of the group with a cell. `share` is 1, or 0 in padding.
-static JnStatus fill_lane(JnGroup* group, const JnMesh* mesh, int nodes_offset, int slot, int cell, double share) {
+static void fill_lane(JnGroup* group, const JnMesh* mesh, int nodes_offset, int slot, int cell, double share) {
 	const JnElement* element = elements[mesh->shape];
 	const int width = group->kernel->width, lane = slot % width;
 	const ptrdiff_t batch = slot / width;
-	const double volume = jn_mesh_cell_volume(mesh, cell); // quadrature points alone miss exchanged corners of a tet10
 	for (int i = 0; i < element->nodes; i++) {
 		const int node = mesh->cells[(ptrdiff_t)cell * element->nodes + i];
 		group->nodes[(batch * element->nodes + i) * width + lane] = node + nodes_offset;
 	}
 	for (int p = 0; p < element->points; p++) {
-		double J[3][3], inverse[3][3];
+		double J[3][3];
 		rest_jacobian(element, mesh, cell, p, J);
-		const double determinant = mat3_invert(J, inverse);
-		if (!(determinant > 0 && volume > 0) || !isfinite(inverse[0][0])) {
-			return jn_error(JN_BAD_INPUT,
-							"cell %d of the %s mesh is flat or inside out: its volume is %g m^3 and its Jacobian at "
-							"quadrature point %d is %g, both must be > 0; check the order of its nodes",
-							cell, jn_shape_info[mesh->shape].name, volume, p, determinant);
-		}
-		double* rest = group->rest + (batch * element->points + p) * 10 * width + lane;
-		for (int k = 0; k < 9; k++) rest[k * width] = inverse[k / 3][k % 3];
-		rest[9 * width] = share * element->weight * determinant;
+		const Rest rest = rest_of(J);
+		fill_point(group, slot, p, &rest, share * element->weight * rest.determinant);
 	}
+}
+
+/// A cell and its lowest node.
+typedef struct CellAt {
+	int lowest, cell;
+} CellAt;
+
+static int by_lowest_node(const void* a, const void* b) {
+	const CellAt *left = a, *right = b;
+	if (left->lowest != right->lowest) return left->lowest < right->lowest ? -1 : 1;
+	return (left->cell > right->cell) - (left->cell < right->cell);
+}
+
+/// Which cell stands in which slot. Cells that lie about at random, as meshers leave them, are sorted by their lowest nodes,
+/// so that neighbours find what they share in the cache; those of a grid stay as they are.
+static JnStatus order_cells(const JnMesh* mesh, JnArena* arena, CellAt** out) {
+	const int nodes = jn_shape_info[mesh->shape].nodes;
+	double steps = 0;
+	JN_NEW(arena, *out, mesh->cell_count);
+	for (int cell = 0; cell < mesh->cell_count; cell++) {
+		const int* at = mesh->cells + (ptrdiff_t)cell * nodes;
+		int lowest = at[0];
+		for (int i = 1; i < nodes; i++) lowest = at[i] < lowest ? at[i] : lowest;
+		(*out)[cell] = (CellAt){lowest, cell};
+		if (cell > 0) steps += fabs((double)lowest - (*out)[cell - 1].lowest);
+	}
+	const double far = mesh->node_count / 16.0; // random numbers are a third of their range apart
+	if (steps > far * mesh->cell_count) qsort(*out, (size_t)mesh->cell_count, sizeof **out, by_lowest_node);
 	return JN_OK;
 }
 
-/// Rotations start as the identity.
-static void reset_frozen(JnGroup* group) {
-	const int width = group->kernel->width, reals = group->kernel->frozen_reals;
-	const ptrdiff_t points = (ptrdiff_t)group->batches * group->kernel->points;
-	for (ptrdiff_t p = 0; p < points; p++) {
-		for (int k = 0; k < reals; k++) {
-			for (int lane = 0; lane < width; lane++) {
-				group->frozen[(p * reals + k) * width + lane] = k % 4 == 0;
-			}
-		}
+static JnStatus fill_lanes(JnGroup* group, const JnMesh* mesh, int nodes_offset) {
+	const int slots = group->batches * group->kernel->width;
+	JnArena scratch = {0};
+	CellAt* cells = NULL;
+	const JnStatus status = order_cells(mesh, &scratch, &cells);
+	for (int slot = 0; slot < slots && status == JN_OK; slot++) {
+		const bool is_padding = slot >= mesh->cell_count;
+		const int cell = cells[is_padding ? mesh->cell_count - 1 : slot].cell;
+		fill_lane(group, mesh, nodes_offset, slot, cell, is_padding ? 0 : 1);
 	}
+	jn_arena_free(&scratch);
+	return status;
 }
 
 JnStatus jn_group_create(const JnKernel* kernel, const JnMesh* mesh, int nodes_offset, const JnMaterialDef* material,
 						 JnArena* arena, JnGroup* group) {
 	const int width = kernel->width, batches = (mesh->cell_count + width - 1) / width;
-	const size_t slots = (size_t)batches * width;
+	const size_t slots = (size_t)batches * width, pairs = ((size_t)batches + 1) / 2;
+	const JnElement* element = elements[mesh->shape];
+	for (int cell = 0; cell < mesh->cell_count; cell++) JN_TRY(check_cell(element, mesh, cell));
 	*group = (JnGroup){.kernel = kernel, .count = mesh->cell_count, .batches = batches};
+	group->rest_points = are_parallelepipeds(element, mesh) ? 1 : kernel->points;
 	kernel->law->prepare(material, group->constants);
 	JN_NEW(arena, group->nodes, slots * kernel->nodes);
-	JN_NEW(arena, group->rest, slots * kernel->points * kernel->rest_reals);
-	if (kernel->frozen_reals > 0) {
-		JN_NEW(arena, group->frozen, slots * kernel->points * kernel->frozen_reals);
-		reset_frozen(group);
-	}
-	for (int slot = 0; slot < (int)slots; slot++) {
-		const bool is_padding = slot >= mesh->cell_count;
-		const int cell = is_padding ? mesh->cell_count - 1 : slot;
-		JN_TRY(fill_lane(group, mesh, nodes_offset, slot, cell, is_padding ? 0 : 1));
-	}
-	return JN_OK;
+	JN_NEW(arena, group->rest, slots * group->rest_points * kernel->rest_reals);
+	JN_NEW(arena, group->rest_single, 2 * pairs * width * group->rest_points * 6);
+	if (kernel->frozen_reals > 0) JN_NEW(arena, group->frozen, slots * kernel->points * kernel->frozen_reals);
+	return fill_lanes(group, mesh, nodes_offset);
 }
 
 JnStatus jn_solid_build(const JnLaw* law, const void* options, const JnMesh* mesh, int first_node, const char* what,

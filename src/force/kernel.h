@@ -87,6 +87,17 @@ typedef struct JnKernel {
 	/// out[batch - first][3 * nodes][lane] = K p of each element [N], K as tangent() makes it at x. NULL: this kernel's
 	/// matrices must be assembled.
 	void (*product)(const JnGroup*, int first, int last, const double* x, bool definite, const double* p, double* out);
+	/// product() in single precision, in two steps. Batches go in pairs, 2 W lanes: 0 and 1, 2 and 3, ..., the last one
+	/// with itself where it is alone; `first` is even. store: what K p needs of x, stored_reals[definite] floats a point,
+	/// into stored[pair][points][stored_reals][2 W], `stored` that of the whole group. NULL: double precision alone.
+	void (*store)(const JnGroup*, int first, int last, const double* x, bool definite, float* stored);
+	/// out[pair - first / 2][3 * nodes][2 W] = K p of each element [N], p with 4 floats a node; `stored` is that of `first`.
+	void (*product_single)(const JnGroup*, int first, int last, bool definite, const float* stored, const float* p,
+						   float* out);
+	int stored_reals[2];
+	/// out[batch - first][nodes][6][lane] = the diagonal blocks of tangent(), each its lower triangle by rows. NULL: take
+	/// those of tangent().
+	void (*diagonal)(const JnGroup*, int first, int last, const double* x, bool definite, double* out);
 	/// Break the elements that x strains too much, or that have a node of `doomed` (one a node of the model, or NULL): they
 	/// have no force from then on. Writes their numbers to `broken`, adds the energy that they held to *released [J],
 	/// returns how many. NULL: nothing breaks.
@@ -101,13 +112,15 @@ typedef struct JnKernel {
 /// Some of a body's elements, of one kernel.
 struct JnGroup {
 	const JnKernel* kernel;
-	int count;   ///< elements
-	int batches; ///< ceil(count / W)
-	int* nodes;  ///< [batches][nodes][W]: node numbers; 3 * node is the offset in x
-	/// [batches][points][rest_reals][W], so that padding adds nothing. Solids: the inverse rest Jacobian, row-major
-	/// (d xi_r / d X_c), and the weight [m^3], which is 0 in padding.
+	int count;       ///< elements
+	int batches;     ///< ceil(count / W)
+	int* nodes;      ///< [batches][nodes][W]: node numbers; 3 * node is the offset in x
+	int rest_points; ///< of solids: 1 when one point's rest data serve all of an element (parallelepipeds), else all
+	/// [batches][points][rest_reals][W], so that padding adds nothing. Solids: L by rows, where L L^T = J0^-1 J0^-T, J0 =
+	/// dX/dxi the rest Jacobian, and the weight [m^3], which is 0 in padding; rest_points of them.
 	double* rest;
-	double* frozen; ///< [batches][points][frozen_reals][W], or NULL
+	float* rest_single; ///< of solids: sqrt(weight) L, [pairs of batches][rest_points][6][2 W]
+	double* frozen;     ///< [batches][points][frozen_reals][W], or NULL
 	double constants[JN_LAW_CONSTANTS];
 	double damping; ///< stiffness-proportional damping of this group, beside that of the body [s]
 };

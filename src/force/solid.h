@@ -5,9 +5,9 @@
 
 #include "force/kernel.h"
 
-/// X(law, frozen_reals, is_convex): numbers a point that freeze() keeps; whether dP/dF is semidefinite by itself.
+/// X(law, frozen_reals, is_convex): numbers a point that a group keeps; whether dP/dF is semidefinite by itself.
 #define JN_SOLID_LAWS(X)                                                                                               \
-	X(linear, 0, 1)                                                                                                    \
+	X(linear, 9, 1)                                                                                                    \
 	X(st_venant_kirchhoff, 0, 0)                                                                                       \
 	X(neo_hookean, 0, 0)                                                                                               \
 	X(stable_neo_hookean, 0, 0)                                                                                        \
@@ -21,6 +21,12 @@ enum { JN_SOLID_LAW_COUNT = 0 JN_SOLID_LAWS(JN_COUNT_LAW) };
 #define JN_DECLARE_LAW(law, frozen_reals, is_convex) extern const JnLaw jn_law_##law;
 JN_SOLID_LAWS(JN_DECLARE_LAW)
 #undef JN_DECLARE_LAW
+
+/// X(shape, index of the shape, ...the law).
+#define JN_ON_SOLID_SHAPES(X, law, frozen_reals, is_convex)                                                            \
+	X(tet4, JN_TET4, law, frozen_reals, is_convex)                                                                     \
+	X(tet10, JN_TET10, law, frozen_reals, is_convex)                                                                   \
+	X(hex8, JN_HEX8, law, frozen_reals, is_convex)
 
 #if defined(__x86_64__)
 	#define JN_HAS_WIDE_KERNELS 1

@@ -8,6 +8,7 @@
 #include "force/material/stable_neo_hookean.h"
 #include "force/solid.h"
 #include "force/solid_loops.h"
+#include "force/solid_single.h"
 
 #if JN_WIDE > 2 && !JN_HAS_WIDE_KERNELS
 	#error "8 and 4 lanes exist on x86-64 only: compile this file with JN_WIDE=2 alone"
@@ -16,20 +17,17 @@
 #define JOIN_NAMES(a, b) a##b
 #define JOIN(a, b) JOIN_NAMES(a, b)
 
-/// X(shape, index of the shape, ...the law).
-#define ON_ALL_SHAPES(X, law, frozen_reals, is_convex)                                                                 \
-	X(tet4, JN_TET4, law, frozen_reals, is_convex)                                                                     \
-	X(tet10, JN_TET10, law, frozen_reals, is_convex)                                                                   \
-	X(hex8, JN_HEX8, law, frozen_reals, is_convex)
-
 // ---- what is compiled once an element ----
 
-#define DEFINE_ELEMENT(shape)                                                                                          \
-	JN_SHARED void shape##_gather(const JnGroup* group, int batch, const double* x, Wide edges[][3]) {                 \
-		gather_edges(group, &jn_element_##shape, batch, x, edges);                                                     \
+#define DEFINE_ELEMENT(shape, index)                                                                                   \
+	JN_SHARED void shape##_gather(const JnGroup* group, int batch, const double* x, Jacobians* jacobians) {            \
+		gather_jacobians(group, &jn_element_##shape, index, batch, x, jacobians);                                      \
 	}                                                                                                                  \
-	JN_SHARED void shape##_load(const JnGroup* group, int batch, int p, Wide edges[][3], Point* point) {               \
-		point_load(group, &jn_element_##shape, batch, p, edges, point);                                                \
+	JN_SHARED void shape##_store_nodes(const Jacobians* jacobians, double* out) {                                      \
+		store_nodes(&jn_element_##shape, index, jacobians, out);                                                       \
+	}                                                                                                                  \
+	JN_SHARED void shape##_load(const JnGroup* group, int batch, int p, const Jacobians* jacobians, Point* point) {    \
+		point_load(group, index, batch, p, jacobians, point);                                                          \
 	}                                                                                                                  \
 	JN_SHARED void shape##_add_tangent(int p, const Point* point, const WideTangent* A, double* blocks) {              \
 		add_tangent(&jn_element_##shape, p, point, A, blocks);                                                         \
@@ -37,11 +35,11 @@
 	JN_SHARED void shape##_complete_tangent(double* blocks) {                                                          \
 		complete_tangent(&jn_element_##shape, blocks);                                                                 \
 	}                                                                                                                  \
-	static const ElementCode shape##_code = {shape##_gather, shape##_load, shape##_add_tangent,                        \
+	static const ElementCode shape##_code = {shape##_gather, shape##_store_nodes, shape##_load, shape##_add_tangent,   \
 											 shape##_complete_tangent};
-DEFINE_ELEMENT(tet4)
-DEFINE_ELEMENT(tet10)
-DEFINE_ELEMENT(hex8)
+DEFINE_ELEMENT(tet4, JN_TET4)
+DEFINE_ELEMENT(tet10, JN_TET10)
+DEFINE_ELEMENT(hex8, JN_HEX8)
 
 // ---- what is compiled once a law ----
 
@@ -58,6 +56,21 @@ DEFINE_ELEMENT(hex8)
 	}
 JN_SOLID_LAWS(DEFINE_LAW)
 
+#define DEFINE_WHOLE(law, frozen_reals, is_convex)                                                                     \
+	JN_SHARED void law##_whole(const double* constants, const double* frozen, const WideMat3* F, Wide stored[]) {      \
+		store_whole(constants, frozen, F, stored, law##_definite);                                                     \
+	}
+JN_SOLID_LAWS(DEFINE_WHOLE)
+
+JN_SHARED void shared_whole_diagonal(const double* constants, const Wide A[], Wide weight, const Wide g[3],
+									 Wide block[6]) {
+	whole_diagonal(constants, A, weight, g, block);
+}
+
+JN_SHARED void shared_whole_differential(const double* constants, const Wide A[], Wide D[3][3], Wide dP[3][3]) {
+	whole_differential(constants, A, D, dP);
+}
+
 // ---- the pairs ----
 
 #define DEFINE_PAIR(shape, index, law, frozen_reals, is_convex)                                                        \
@@ -65,7 +78,37 @@ JN_SOLID_LAWS(DEFINE_LAW)
 		energy_loop(group, first, last, x, out, &jn_element_##shape, &shape##_code, frozen_reals, law##_energy);       \
 	}                                                                                                                  \
 	static void shape##_##law##_force(const JnGroup* group, int first, int last, const double* x, double* out) {       \
-		force_loop(group, first, last, x, out, &jn_element_##shape, frozen_reals, law##_stress);                       \
+		force_loop(group, first, last, x, out, &jn_element_##shape, index, &shape##_code, frozen_reals, law##_stress); \
+	}                                                                                                                  \
+	static void shape##_##law##_product(const JnGroup* group, int first, int last, const double* x, bool definite,     \
+										const double* p, double* out) {                                                \
+		if (definite && !(is_convex)) {                                                                                \
+			product_loop(group, first, last, x, p, out, &jn_element_##shape, index, &shape##_code, frozen_reals,       \
+						 law##_whole, shared_whole_differential);                                                      \
+		} else {                                                                                                       \
+			product_loop(group, first, last, x, p, out, &jn_element_##shape, index, &shape##_code, frozen_reals,       \
+						 law##_linearize, law##_differential);                                                         \
+		}                                                                                                              \
+	}                                                                                                                  \
+	static void shape##_##law##_diagonal(const JnGroup* group, int first, int last, const double* x, bool definite,    \
+										 double* out) {                                                                \
+		if (definite && !(is_convex)) {                                                                                \
+			diagonal_loop(group, first, last, x, out, &jn_element_##shape, index, &shape##_code, frozen_reals,         \
+						  law##_whole, shared_whole_diagonal);                                                         \
+		} else {                                                                                                       \
+			diagonal_loop(group, first, last, x, out, &jn_element_##shape, index, &shape##_code, frozen_reals,         \
+						  law##_linearize, law##_diagonal);                                                            \
+		}                                                                                                              \
+	}                                                                                                                  \
+	static void shape##_##law##_store(const JnGroup* group, int first, int last, const double* x, bool definite,       \
+									  float* stored) {                                                                 \
+		if (definite && !(is_convex)) {                                                                                \
+			store_loop(group, first, last, x, stored, &jn_element_##shape, index, &shape##_code, frozen_reals,         \
+					   WHOLE_REALS, law##_whole);                                                                      \
+		} else {                                                                                                       \
+			store_loop(group, first, last, x, stored, &jn_element_##shape, index, &shape##_code, frozen_reals,         \
+					   law##_STORED, law##_linearize);                                                                 \
+		}                                                                                                              \
 	}                                                                                                                  \
 	static void shape##_##law##_tangent(const JnGroup* group, int first, int last, const double* x, bool definite,     \
 										double* out) {                                                                 \
@@ -76,7 +119,7 @@ JN_SOLID_LAWS(DEFINE_LAW)
 			tangent_loop(group, first, last, x, out, &jn_element_##shape, &shape##_code, frozen_reals, law##_exact);   \
 		}                                                                                                              \
 	}
-#define DEFINE_PAIRS(law, frozen_reals, is_convex) ON_ALL_SHAPES(DEFINE_PAIR, law, frozen_reals, is_convex)
+#define DEFINE_PAIRS(law, frozen_reals, is_convex) JN_ON_SOLID_SHAPES(DEFINE_PAIR, law, frozen_reals, is_convex)
 JN_SOLID_LAWS(DEFINE_PAIRS)
 
 #define DEFINE_FREEZE(shape)                                                                                           \
@@ -104,9 +147,14 @@ enum {
 		.energy = shape_name##_##law_name##_energy,                                                                    \
 		.force = shape_name##_##law_name##_force,                                                                      \
 		.tangent = shape_name##_##law_name##_tangent,                                                                  \
-		.freeze = (reals) > 0 ? shape_name##_freeze : NULL,                                                            \
+		.freeze = LAW_##law_name == LAW_corotated_frozen ? shape_name##_freeze : NULL,                                 \
+		.product = shape_name##_##law_name##_product,                                                                  \
+		.diagonal = shape_name##_##law_name##_diagonal,                                                                \
+		.store = shape_name##_##law_name##_store,                                                                      \
+		.product_single = JN_PRODUCT_SINGLE(shape_name, law_name),                                                     \
+		.stored_reals = {law_name##_STORED, (is_convex) ? law_name##_STORED : WHOLE_REALS},                            \
 	},
-#define KERNELS(law, frozen_reals, is_convex) ON_ALL_SHAPES(KERNEL, law, frozen_reals, is_convex)
+#define KERNELS(law, frozen_reals, is_convex) JN_ON_SOLID_SHAPES(KERNEL, law, frozen_reals, is_convex)
 
 enum { tet4_NODES = 4, tet4_POINTS = 1, tet10_NODES = 10, tet10_POINTS = 4, hex8_NODES = 8, hex8_POINTS = 8 };
 

@@ -1,52 +1,43 @@
 /// @file solid_loops.h
-/// The loops over batches, points and nodes. Element and law are compile-time constants of these always-inline
-/// functions, so that each instance is straight vector code:
+/// The loops over batches, points and nodes in double precision. Element and law are compile-time constants of these
+/// always-inline functions, so that each instance is straight vector code. With x_i, p_i measured from the last node:
 ///
-///   J = sum_i (x_i - x_last) (x) dN_i/dxi,  F = J J0^-1,  f_i = -w P J0^-T dN_i,  K_ij = w (g_i . dP/dF . g_j)
+///   J = sum_i x_i (x) dN_i/dxi,  F = J L,  f_i = -w P L^T dN_i/dxi,  K_ij = w (g_i . dP/dF . g_j),  g_i = L^T dN_i/dxi
 ///
-/// with g_i = J0^-T dN_i/dxi = dN_i/dX. The sum of all gradients is 0: the last node follows from the others.
+/// F and g_i are those of the rest state turned by the rotation Q of kernel.h. jacobian.h takes the sums over nodes.
 #ifndef JN_FORCE_SOLID_LOOPS_H
 #define JN_FORCE_SOLID_LOOPS_H
 
-#include "force/element.h"
+#include "force/element_loops.h"
+#include "force/jacobian.h"
 #include "force/kernel.h"
 #include "force/material/definite.h"
+#include "force/material/diagonal.h"
 
 typedef void WideFreeze(double* frozen, const WideMat3* F);
 
-enum { REST_REALS = 10 };
+enum { REST_REALS = 7 };
 
-/// A point of a batch: its rest data and the group's memory of it.
+/// A point of a batch: its rest data and its deformation gradient.
 typedef struct Point {
-	WideMat3 inverse; ///< J0^-1
+	Wide L[6];
 	Wide weight;
 	WideMat3 F;
 } Point;
 
-JN_INLINE void gather_edges(const JnGroup* group, const JnElement* element, int batch, const double* x,
-							Wide edges[][3]) {
-	const int* nodes = group->nodes + (ptrdiff_t)batch * element->nodes * JN_WIDE;
-	const int* last = nodes + (element->nodes - 1) * JN_WIDE;
-	const Wide origin[3] = {wide_gather(x, 3, last), wide_gather(x + 1, 3, last), wide_gather(x + 2, 3, last)};
-	JN_UNROLL for (int i = 0; i < element->nodes - 1; i++) {
-		JN_UNROLL for (int a = 0; a < 3; a++) edges[i][a] = wide_gather(x + a, 3, nodes + i * JN_WIDE) - origin[a];
-	}
+JN_INLINE const double* rest_at(const JnGroup* group, int batch, int p) {
+	const ptrdiff_t point = group->rest_points == 1 ? batch : (ptrdiff_t)batch * group->rest_points + p;
+	return group->rest + point * REST_REALS * JN_WIDE;
 }
 
-JN_INLINE void point_load(const JnGroup* group, const JnElement* element, int batch, int p, Wide edges[][3],
+JN_INLINE void point_load(const JnGroup* group, JnShape shape, int batch, int p, const Jacobians* jacobians,
 						  Point* point) {
-	const double* rest = group->rest + ((ptrdiff_t)batch * element->points + p) * REST_REALS * JN_WIDE;
-	JN_UNROLL for (int i = 0; i < 9; i++) point->inverse.at[i / 3][i % 3] = wide_load(rest + i * JN_WIDE);
-	point->weight = wide_load(rest + 9 * JN_WIDE);
-	WideMat3 J;
-	JN_UNROLL for (int i = 0; i < 9; i++) J.at[i / 3][i % 3] = edges[0][i / 3] * element->gradient[p][0][i % 3];
-	JN_UNROLL for (int node = 1; node < element->nodes - 1; node++) {
-		JN_UNROLL for (int i = 0; i < 9; i++) {
-			Wide* entry = &J.at[i / 3][i % 3];
-			*entry = wide_fma(edges[node][i / 3], wide_set(element->gradient[p][node][i % 3]), *entry);
-		}
-	}
-	point->F = wide_mat3_multiply(&J, &point->inverse);
+	const double* rest = rest_at(group, batch, p);
+	JN_UNROLL for (int k = 0; k < 6; k++) point->L[k] = wide_load(rest + k * JN_WIDE);
+	point->weight = wide_load(rest + 6 * JN_WIDE);
+	Wide J[3][3];
+	jacobian_at(shape, jacobians, p, J);
+	times_lower(J, point->L, point->F.at);
 }
 
 JN_INLINE double* point_frozen(const JnGroup* group, const JnElement* element, int batch, int p, int frozen_reals) {
@@ -56,20 +47,36 @@ JN_INLINE double* point_frozen(const JnGroup* group, const JnElement* element, i
 
 /// The longer parts of an element's loops, each compiled once and called directly where the call is lost in the work.
 typedef struct ElementCode {
-	void (*gather)(const JnGroup* group, int batch, const double* x, Wide edges[][3]);
-	void (*load)(const JnGroup* group, int batch, int p, Wide edges[][3], Point* point);
+	void (*gather)(const JnGroup* group, int batch, const double* x, Jacobians* jacobians);
+	void (*nodes)(const Jacobians* jacobians, double* out);
+	void (*load)(const JnGroup* group, int batch, int p, const Jacobians* jacobians, Point* point);
 	void (*add)(int p, const Point* point, const WideTangent* A, double* blocks);
 	void (*complete)(double* blocks);
 } ElementCode;
 
+JN_INLINE void gather_jacobians(const JnGroup* group, const JnElement* element, JnShape shape, int batch,
+								const double* x, Jacobians* jacobians) {
+	Wide edges[JN_ELEMENT_NODES][3];
+	gather_edges(group, element, batch, x, edges);
+	jacobians_of(shape, edges, jacobians);
+}
+
+/// out[3 * nodes][lane] from the factors of the Jacobians.
+JN_INLINE void store_nodes(const JnElement* element, JnShape shape, const Jacobians* jacobians, double* out) {
+	Wide node[JN_ELEMENT_NODES][3];
+	nodes_of(shape, jacobians, node);
+	JN_UNROLL for (int i = 0; i < 3 * element->nodes; i++) wide_store(out + i * JN_WIDE, node[i / 3][i % 3]);
+}
+
 JN_INLINE void energy_loop(const JnGroup* group, int first, int last, const double* x, double* out,
 						   const JnElement* element, const ElementCode* code, int frozen_reals, WideEnergy* energy) {
 	for (int batch = first; batch < last; batch++) {
-		Wide edges[JN_ELEMENT_NODES][3], sum = wide_set(0);
-		code->gather(group, batch, x, edges);
+		Jacobians jacobians;
+		Wide sum = wide_set(0);
+		code->gather(group, batch, x, &jacobians);
 		for (int p = 0; p < element->points; p++) {
 			Point point;
-			code->load(group, batch, p, edges, &point);
+			code->load(group, batch, p, &jacobians, &point);
 			const double* frozen = point_frozen(group, element, batch, p, frozen_reals);
 			sum = wide_fma(point.weight, energy(group->constants, frozen, &point.F), sum);
 		}
@@ -77,45 +84,84 @@ JN_INLINE void energy_loop(const JnGroup* group, int first, int last, const doub
 	}
 }
 
-JN_INLINE void store_forces(const JnElement* element, Wide force[][3], double* out) {
-	JN_UNROLL for (int a = 0; a < 3; a++) {
-		Wide sum = wide_set(0);
-		JN_UNROLL for (int node = 0; node < element->nodes - 1; node++) {
-			wide_store(out + (3 * node + a) * JN_WIDE, force[node][a]);
-			sum -= force[node][a];
-		}
-		wide_store(out + (3 * (element->nodes - 1) + a) * JN_WIDE, sum);
-	}
+/// sums += scale P L^T at a point.
+JN_INLINE void add_stress(JnShape shape, int p, const Point* point, Wide scale, WideMat3* P, Jacobians* sums) {
+	Wide G[3][3], L[6];
+	JN_UNROLL for (int k = 0; k < 6; k++) L[k] = scale * point->L[k];
+	times_upper(P->at, L, G);
+	jacobian_add(shape, sums, p, G);
 }
 
 JN_INLINE void force_loop(const JnGroup* group, int first, int last, const double* x, double* out,
-						  const JnElement* element, int frozen_reals, WideStress* stress) {
+						  const JnElement* element, JnShape shape, const ElementCode* code, int frozen_reals,
+						  WideStress* stress) {
 	for (int batch = first; batch < last; batch++) {
-		Wide edges[JN_ELEMENT_NODES][3], force[JN_ELEMENT_NODES][3];
-		gather_edges(group, element, batch, x, edges);
-		JN_UNROLL for (int node = 0; node < element->nodes - 1; node++) {
-			JN_UNROLL for (int a = 0; a < 3; a++) force[node][a] = wide_set(0);
-		}
+		Jacobians jacobians, sums;
+		code->gather(group, batch, x, &jacobians);
+		jacobians_clear(shape, &sums);
 		for (int p = 0; p < element->points; p++) {
 			Point point;
-			point_load(group, element, batch, p, edges, &point);
 			WideMat3 P;
+			point_load(group, shape, batch, p, &jacobians, &point);
 			stress(group->constants, point_frozen(group, element, batch, p, frozen_reals), &point.F, &P);
-			JN_UNROLL for (int i = 0; i < 9; i++) P.at[i / 3][i % 3] *= -point.weight;
-			const WideMat3 G = wide_mat3_multiply_transposed(&P, &point.inverse);
-			JN_UNROLL for (int node = 0; node < element->nodes - 1; node++) {
-				JN_UNROLL for (int i = 0; i < 9; i++) {
-					Wide* entry = &force[node][i / 3];
-					*entry = wide_fma(G.at[i / 3][i % 3], wide_set(element->gradient[p][node][i % 3]), *entry);
-				}
-			}
+			add_stress(shape, p, &point, -point.weight, &P, &sums);
 		}
-		store_forces(element, force, out + (ptrdiff_t)(batch - first) * 3 * element->nodes * JN_WIDE);
+		code->nodes(&sums, out + (ptrdiff_t)(batch - first) * 3 * element->nodes * JN_WIDE);
 	}
 }
 
-JN_INLINE int pair_index(int i, int j) {
-	return i * (i + 1) / 2 + j;
+/// As law.h's linearize: all of dP/dF.
+JN_INLINE void store_whole(const double* constants, const double* frozen, const WideMat3* F, Wide stored[],
+						   WideTangentOf* tangent) {
+	WideTangent A;
+	tangent(constants, frozen, F, &A);
+	JN_UNROLL for (int ac = 0; ac < 9; ac++) {
+		JN_UNROLL for (int bd = 0; bd < 9; bd++) {
+			if (bd <= ac) stored[ac * (ac + 1) / 2 + bd] = A.at[ac][bd];
+		}
+	}
+}
+
+JN_INLINE void product_loop(const JnGroup* group, int first, int last, const double* x, const double* direction,
+							double* out, const JnElement* element, JnShape shape, const ElementCode* code,
+							int frozen_reals, WideLinearize* linearize, RealDifferential* differential) {
+	for (int batch = first; batch < last; batch++) {
+		Jacobians jacobians, change, sums;
+		code->gather(group, batch, x, &jacobians);
+		code->gather(group, batch, direction, &change);
+		jacobians_clear(shape, &sums);
+		for (int p = 0; p < element->points; p++) {
+			Point point;
+			Wide stored[WHOLE_REALS], dJ[3][3], D[3][3];
+			WideMat3 dP;
+			point_load(group, shape, batch, p, &jacobians, &point);
+			linearize(group->constants, point_frozen(group, element, batch, p, frozen_reals), &point.F, stored);
+			jacobian_at(shape, &change, p, dJ);
+			times_lower(dJ, point.L, D);
+			differential(group->constants, stored, D, dP.at);
+			add_stress(shape, p, &point, point.weight, &dP, &sums);
+		}
+		code->nodes(&sums, out + (ptrdiff_t)(batch - first) * 3 * element->nodes * JN_WIDE);
+	}
+}
+
+/// JnKernel.store.
+JN_INLINE void store_loop(const JnGroup* group, int first, int last, const double* x, float* stored,
+						  const JnElement* element, JnShape shape, const ElementCode* code, int frozen_reals,
+						  int stored_reals, WideLinearize* linearize) {
+	for (int batch = first; batch < last; batch++) {
+		Jacobians jacobians;
+		code->gather(group, batch, x, &jacobians);
+		for (int p = 0; p < element->points; p++) {
+			Point point;
+			Wide numbers[WHOLE_REALS];
+			point_load(group, shape, batch, p, &jacobians, &point);
+			linearize(group->constants, point_frozen(group, element, batch, p, frozen_reals), &point.F, numbers);
+			float* to = stored + ((ptrdiff_t)(batch / 2) * element->points + p) * stored_reals * JN_WIDE_FLOATS +
+						batch % 2 * JN_WIDE;
+			JN_UNROLL for (int k = 0; k < stored_reals; k++) wide_store_rounded(to + k * JN_WIDE_FLOATS, numbers[k]);
+		}
+	}
 }
 
 /// Column j of the point's K, times the weight: T[ac][b] = w sum_d A[ac][bd] g_j[d].
@@ -132,16 +178,20 @@ JN_INLINE void tangent_column(const WideTangent* A, const Wide g[3], Wide T[9][3
 	}
 }
 
+/// dN_i/dX = L^T dN_i/dxi of all nodes but the last.
+JN_INLINE void point_gradients(const JnElement* element, int p, const Wide L[6], Wide g[][3]) {
+	JN_UNROLL for (int node = 0; node < element->nodes - 1; node++) {
+		const double* dN = element->gradient[p][node];
+		g[node][0] = wide_dot3(L[0], wide_set(dN[0]), L[1], wide_set(dN[1]), L[3], wide_set(dN[2]));
+		g[node][1] = wide_fma(L[2], wide_set(dN[1]), L[4] * wide_set(dN[2]));
+		g[node][2] = L[5] * wide_set(dN[2]);
+	}
+}
+
 /// Add the point's share to the blocks of all pairs without the last node.
 JN_INLINE void add_tangent(const JnElement* element, int p, const Point* point, const WideTangent* A, double* blocks) {
 	Wide g[JN_ELEMENT_NODES][3];
-	JN_UNROLL for (int node = 0; node < element->nodes - 1; node++) {
-		const double* dN = element->gradient[p][node];
-		JN_UNROLL for (int c = 0; c < 3; c++) {
-			g[node][c] = wide_dot3(point->inverse.at[0][c], wide_set(dN[0]), point->inverse.at[1][c], wide_set(dN[1]),
-								   point->inverse.at[2][c], wide_set(dN[2]));
-		}
-	}
+	point_gradients(element, p, point->L, g);
 	for (int j = 0; j < element->nodes - 1; j++) {
 		Wide T[9][3], weighted[3];
 		JN_UNROLL for (int d = 0; d < 3; d++) weighted[d] = point->weight * g[j][d];
@@ -158,44 +208,20 @@ JN_INLINE void add_tangent(const JnElement* element, int p, const Point* point, 
 	}
 }
 
-/// The rows of the last node from those of the others: all columns of K sum to 0. Diagonal blocks made symmetric.
-JN_INLINE void complete_tangent(const JnElement* element, double* blocks) {
-	const int n = element->nodes, last = n - 1;
-	for (int node = 0; node < last; node++) {
-		double* block = blocks + (ptrdiff_t)pair_index(node, node) * 9 * JN_WIDE;
-		JN_UNROLL for (int a = 0; a < 2; a++) {
-			JN_UNROLL for (int b = a + 1; b < 3; b++) {
-				wide_store(block + (3 * a + b) * JN_WIDE, wide_load(block + (3 * b + a) * JN_WIDE));
-			}
-		}
-	}
-	for (int j = 0; j < n; j++) {
-		JN_UNROLL for (int ab = 0; ab < 9; ab++) {
-			const int ba = ab % 3 * 3 + ab / 3;
-			Wide sum = wide_set(0);
-			for (int i = 0; i < last; i++) {
-				const int pair = i >= j ? pair_index(i, j) : pair_index(j, i);
-				sum -= wide_load(blocks + ((ptrdiff_t)pair * 9 + (i >= j ? ab : ba)) * JN_WIDE);
-			}
-			wide_store(blocks + ((ptrdiff_t)pair_index(last, j) * 9 + ab) * JN_WIDE, sum);
-		}
-	}
-}
-
 /// `tangent` gives dP/dF at a point and is compiled once too.
 JN_INLINE void tangent_loop(const JnGroup* group, int first, int last, const double* x, double* out,
 							const JnElement* element, const ElementCode* code, int frozen_reals,
 							WideTangentOf* tangent) {
 	const ptrdiff_t reals = (ptrdiff_t)element->nodes * (element->nodes + 1) / 2 * 9 * JN_WIDE;
 	for (int batch = first; batch < last; batch++) {
-		Wide edges[JN_ELEMENT_NODES][3];
-		code->gather(group, batch, x, edges);
+		Jacobians jacobians;
+		code->gather(group, batch, x, &jacobians);
 		double* blocks = out + (batch - first) * reals;
 		for (ptrdiff_t i = 0; i < reals; i += JN_WIDE) wide_store(blocks + i, wide_set(0));
 		for (int p = 0; p < element->points; p++) {
 			Point point;
 			WideTangent A;
-			code->load(group, batch, p, edges, &point);
+			code->load(group, batch, p, &jacobians, &point);
 			tangent(group->constants, point_frozen(group, element, batch, p, frozen_reals), &point.F, &A);
 			code->add(p, &point, &A, blocks);
 		}
@@ -203,14 +229,41 @@ JN_INLINE void tangent_loop(const JnGroup* group, int first, int last, const dou
 	}
 }
 
+/// JnKernel.diagonal.
+JN_INLINE void diagonal_loop(const JnGroup* group, int first, int last, const double* x, double* out,
+							 const JnElement* element, JnShape shape, const ElementCode* code, int frozen_reals,
+							 WideLinearize* linearize, WideDiagonal* diagonal) {
+	const int end = element->nodes - 1;
+	for (int batch = first; batch < last; batch++) {
+		Jacobians jacobians;
+		Wide blocks[JN_ELEMENT_NODES][6];
+		code->gather(group, batch, x, &jacobians);
+		for (int i = 0; i <= end; i++) JN_UNROLL for (int k = 0; k < 6; k++) blocks[i][k] = wide_set(0);
+		for (int p = 0; p < element->points; p++) {
+			Point point;
+			Wide stored[WHOLE_REALS], g[JN_ELEMENT_NODES][3];
+			point_load(group, shape, batch, p, &jacobians, &point);
+			linearize(group->constants, point_frozen(group, element, batch, p, frozen_reals), &point.F, stored);
+			point_gradients(element, p, point.L, g);
+			JN_UNROLL for (int c = 0; c < 3; c++) {
+				g[end][c] = -g[0][c];
+				JN_UNROLL for (int i = 1; i < end; i++) g[end][c] -= g[i][c];
+			}
+			for (int i = 0; i <= end; i++) diagonal(group->constants, stored, point.weight, g[i], blocks[i]);
+		}
+		for (int i = 0; i <= end; i++, out += 6 * JN_WIDE)
+			JN_UNROLL for (int k = 0; k < 6; k++) wide_store(out + k * JN_WIDE, blocks[i][k]);
+	}
+}
+
 JN_INLINE void freeze_loop(JnGroup* group, int first, int last, const double* x, const JnElement* element,
 						   const ElementCode* code, int frozen_reals, WideFreeze* freeze) {
 	for (int batch = first; batch < last; batch++) {
-		Wide edges[JN_ELEMENT_NODES][3];
-		code->gather(group, batch, x, edges);
+		Jacobians jacobians;
+		code->gather(group, batch, x, &jacobians);
 		for (int p = 0; p < element->points; p++) {
 			Point point;
-			code->load(group, batch, p, edges, &point);
+			code->load(group, batch, p, &jacobians, &point);
 			freeze(point_frozen(group, element, batch, p, frozen_reals), &point.F);
 		}
 	}

@@ -9,7 +9,7 @@
 #include "force/constraint/shear.h"
 #include "force/constraint/spring.h"
 #include "force/constraint/stretch.h"
-#include "force/solid_loops.h"
+#include "force/element_loops.h"
 
 #define JOIN_NAMES(a, b) a##b
 #define JOIN(a, b) JOIN_NAMES(a, b)

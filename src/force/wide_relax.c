@@ -1,8 +1,8 @@
 // Relaxation for JN_WIDE lanes, compiled once a vector width; exports the table jn_relax_kernels_<width>. Equations 17 and 18
 // of Macklin, Mueller, Chentanez (XPBD, 2016); see pass/relax.c.
+#include "force/element_loops.h"
 #include "force/relax.h"
 #include "force/relax_measure.h"
-#include "force/solid_loops.h"
 
 #define JOIN_NAMES(a, b) a##b
 #define JOIN(a, b) JOIN_NAMES(a, b)

@@ -40,39 +40,34 @@ JN_INLINE void add_waves(const JnAir* air, const Wide x[3], Wide w[3]) {
 	}
 }
 
-// from[3 * node[lane]]: this loop does little but gather, for which the processor's own instruction is the faster one.
-JN_INLINE Wide gather(const double* from, const int* node) {
-#if JN_WIDE == 8
-	const __m256i nodes = _mm256_loadu_si256((const __m256i*)node);
-	return _mm512_i32gather_pd(_mm256_add_epi32(nodes, _mm256_add_epi32(nodes, nodes)), from, 8);
-#elif JN_WIDE == 4
-	const __m128i nodes = _mm_loadu_si128((const __m128i*)node);
-	return _mm256_i32gather_pd(from, _mm_add_epi32(nodes, _mm_add_epi32(nodes, nodes)), 8);
-#else
-	return wide_gather(from, 3, node);
-#endif
+typedef struct Corners {
+	Wide at[3][3]; // [corner][axis]
+} Corners;
+
+JN_INLINE Corners corners_of(const double* from, const int* nodes) {
+	Corners out;
+	JN_UNROLL for (int c = 0; c < 3; c++) wide_gather_points(from, nodes + c * LANES, out.at[c]);
+	return out;
 }
 
 // Sum of the corners' numbers over three.
-JN_INLINE Wide mean(const double* from, const int* nodes) {
-	const Wide two = gather(from, nodes) + gather(from, nodes + LANES);
-	return (two + gather(from, nodes + 2 * LANES)) * wide_set(1.0 / 3);
+JN_INLINE Wide mean(const Corners* corners, int axis) {
+	return (corners->at[0][axis] + corners->at[1][axis] + corners->at[2][axis]) * wide_set(1.0 / 3);
 }
 
-JN_INLINE void relative_wind(const JnAir* air, const int* nodes, const double* x, const double* v, Wide w[3]) {
-	JN_UNROLL for (int a = 0; a < 3; a++) w[a] = wide_set(air->velocity[a]) - mean(v + a, nodes);
+JN_INLINE void relative_wind(const JnAir* air, const Corners* x, const Corners* v, Wide w[3]) {
+	JN_UNROLL for (int a = 0; a < 3; a++) w[a] = wide_set(air->velocity[a]) - mean(v, a);
 	if (air->waves == 0) return;
 	Wide centre[3];
-	JN_UNROLL for (int a = 0; a < 3; a++) centre[a] = mean(x + a, nodes);
+	JN_UNROLL for (int a = 0; a < 3; a++) centre[a] = mean(x, a);
 	add_waves(air, centre, w);
 }
 
-JN_INLINE void area_vector(const int* nodes, const double* x, Wide S[3]) {
+JN_INLINE void area_vector(const Corners* x, Wide S[3]) {
 	Wide e[3], d[3];
 	JN_UNROLL for (int a = 0; a < 3; a++) {
-		const Wide origin = gather(x + a, nodes);
-		e[a] = gather(x + a, nodes + LANES) - origin;
-		d[a] = gather(x + a, nodes + 2 * LANES) - origin;
+		e[a] = x->at[1][a] - x->at[0][a];
+		d[a] = x->at[2][a] - x->at[0][a];
 	}
 	const Wide half = wide_set(0.5);
 	S[0] = half * wide_minor(e[1], d[2], e[2], d[1]);
@@ -99,9 +94,10 @@ void JOIN(jn_wind_forces_, JN_WIDE)(const JnWindSurface* surface, const JnAir* a
 	for (int place = first * LANES; place < last * LANES; place += JN_WIDE) {
 		const int block = place / LANES, lane = place % LANES;
 		const int* nodes = surface->nodes + (ptrdiff_t)block * 3 * LANES + lane;
+		const Corners at = corners_of(x, nodes), rate = corners_of(v, nodes);
 		Wide S[3], w[3];
-		area_vector(nodes, x, S);
-		relative_wind(air, nodes, x, v, w);
+		area_vector(&at, S);
+		relative_wind(air, &at, &rate, w);
 		const Wide through = wide_dot3(w[0], S[0], w[1], S[1], w[2], S[2]);
 		const Wide square = wide_max(wide_dot3(S[0], S[0], S[1], S[1], S[2], S[2]), wide_set(1e-300));
 		const Wide factor = wide_load(surface->factor + place) * through * wide_abs(through) / square;

@@ -13,6 +13,9 @@ void dgetrs_(const char* trans, const int* n, const int* nrhs, const double* a, 
 /// Cholesky factorisation of the triangle of a[n, n] that `uplo` names; info > 0: not positive definite.
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info, unsigned long uplo_length);
 
+/// The triangle of the inverse, from the factor of dpotrf_.
+void dpotri_(const char* uplo, const int* n, double* a, const int* lda, int* info, unsigned long uplo_length);
+
 /// Solve with the factor of dpotrf_; b[n, nrhs] is overwritten.
 void dpotrs_(const char* uplo, const int* n, const int* nrhs, const double* a, const int* lda, double* b,
 			 const int* ldb, int* info, unsigned long uplo_length);

@@ -98,6 +98,41 @@ JN_INLINE void wide_gather_rows(const double* const rows[JN_WIDE], int count, Wi
 #undef JN_AT
 }
 
+/// The points from[3 * index[lane] + axis] as out[axis][lane]; reads nothing behind a point.
+JN_INLINE void wide_gather_points(const double* from, const int* index, Wide out[3]) {
+#if JN_WIDE >= 4
+	typedef double Four __attribute__((vector_size(32)));
+	const __m256i three = _mm256_set_epi64x(0, -1, -1, -1);
+	#define JN_ROW(lane) (Four) _mm256_maskload_pd(from + 3 * (ptrdiff_t)index[lane], three)
+	#if JN_WIDE == 4
+	const Wide a = JN_ROW(0), b = JN_ROW(1), c = JN_ROW(2), d = JN_ROW(3);
+	const Wide ab = __builtin_shufflevector(a, b, 0, 4, 2, 6), cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+	out[0] = __builtin_shufflevector(ab, cd, 0, 1, 4, 5);
+	out[1] = __builtin_shufflevector(__builtin_shufflevector(a, b, 1, 5, 3, 7),
+									 __builtin_shufflevector(c, d, 1, 5, 3, 7), 0, 1, 4, 5);
+	out[2] = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
+	#else
+		#define JN_TWO(k) __builtin_shufflevector(JN_ROW(k), JN_ROW(4 + (k)), 0, 1, 2, 3, 4, 5, 6, 7)
+	const Wide a = JN_TWO(0), b = JN_TWO(1), c = JN_TWO(2), d = JN_TWO(3);
+		#undef JN_TWO
+	const Wide ab = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14),
+			   cd = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14),
+			   ab_odd = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15),
+			   cd_odd = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+	out[0] = __builtin_shufflevector(ab, cd, 0, 1, 8, 9, 4, 5, 12, 13);
+	out[1] = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 8, 9, 4, 5, 12, 13);
+	out[2] = __builtin_shufflevector(ab, cd, 2, 3, 10, 11, 6, 7, 14, 15);
+	#endif
+	#undef JN_ROW
+#else
+	const double *a = from + 3 * (ptrdiff_t)index[0], *b = from + 3 * (ptrdiff_t)index[1];
+	const Wide ra = wide_load(a), rb = wide_load(b);
+	out[0] = __builtin_shufflevector(ra, rb, 0, 2);
+	out[1] = __builtin_shufflevector(ra, rb, 1, 3);
+	out[2] = (Wide){a[2], b[2]};
+#endif
+}
+
 /// mask ? a : b, lane by lane.
 JN_INLINE Wide wide_select(WideMask mask, Wide a, Wide b) {
 	return (Wide)((mask & (WideMask)a) | (~mask & (WideMask)b));
@@ -156,21 +191,6 @@ JN_INLINE Wide wide_fma(Wide a, Wide b, Wide c) {
 #else
 	return a * b + c;
 #endif
-}
-
-/// Out of line, so that no wide register is live around the calls: mixing them with the library's scalar code costs a
-/// transition each.
-JN_SHARED void wide_log_lanes(double lanes[JN_WIDE]) {
-	for (int lane = 0; lane < JN_WIDE; lane++) lanes[lane] = log(lanes[lane]);
-}
-
-/// Natural logarithm by the C library, so that all widths agree; -INFINITY at 0, NAN below.
-JN_INLINE Wide wide_log(Wide a) {
-	double lanes[JN_WIDE];
-	memcpy(lanes, &a, sizeof lanes);
-	wide_log_lanes(lanes);
-	memcpy(&a, lanes, sizeof lanes);
-	return a;
 }
 
 #endif

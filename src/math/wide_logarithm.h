@@ -28,4 +28,9 @@ JN_INLINE Wide wide_logarithm(Wide a) {
 	return wide_fma(exponent, wide_set(0.693359375), x + wide_fma(wide_set(-0.5), z, tail));
 }
 
+/// The same for normal numbers of either sign: NAN below and at 0.
+JN_INLINE Wide wide_log(Wide a) {
+	return wide_select(a > 0.0, wide_logarithm(a), wide_set(NAN));
+}
+
 #endif

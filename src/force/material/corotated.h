@@ -36,6 +36,25 @@ JN_INLINE void corotated_stress(const double* constants, const double* frozen, c
 	}
 }
 
+enum { corotated_STORED = 15 };
+
+/// R and G = sum over k of (lambda tr(S - I) - 2 mu)/(s_i + s_j) v_k v_k^T.
+JN_INLINE void corotated_linearize(const double* constants, const double* frozen, const WideMat3* F, Wide stored[]) {
+	(void)frozen;
+	WideSvd3 svd;
+	wide_svd3(F, &svd);
+	const WideMat3 R = wide_polar_rotation(&svd), *V = &svd.V;
+	const Wide of_turn = constants[JN_LAW_LAMBDA] * stretch_trace(&svd) - wide_set(2.0 * constants[JN_LAW_MU]);
+	WideMat3 G, scaled;
+	JN_UNROLL for (int k = 0; k < 3; k++) {
+		const Wide scale = of_turn / wide_max(svd.s[(k + 1) % 3] + svd.s[(k + 2) % 3], wide_set(COROTATED_FLOOR));
+		JN_UNROLL for (int a = 0; a < 3; a++) scaled.at[a][k] = scale * V->at[a][k];
+	}
+	G = wide_mat3_multiply_transposed(&scaled, V);
+	store_mat3(&R, stored);
+	store_symmetric(&G, stored + 9);
+}
+
 /// A = 2 mu I + lambda R (x) R + (lambda tr(S - I) - 2 mu) dR/dF.
 JN_INLINE void corotated_tangent(const double* constants, const double* frozen, const WideMat3* F, WideTangent* A) {
 	(void)frozen;

@@ -4,7 +4,7 @@
 #ifndef JN_FORCE_MATERIAL_COROTATED_FROZEN_H
 #define JN_FORCE_MATERIAL_COROTATED_FROZEN_H
 
-#include "force/material/linear.h"
+#include "force/material/hooke.h"
 #include "math/svd3.h"
 
 JN_INLINE WideMat3 frozen_rotation(const double* frozen) {
@@ -29,6 +29,15 @@ JN_INLINE void corotated_frozen_stress(const double* constants, const double* fr
 	const WideMat3 R = frozen_rotation(frozen), RtF = wide_mat3_transposed_multiply(&R, F), e = small_strain(&RtF);
 	const WideMat3 S = hooke_stress(constants, &e);
 	*P = wide_mat3_multiply(&R, &S);
+}
+
+enum { corotated_frozen_STORED = 9 };
+
+JN_INLINE void corotated_frozen_linearize(const double* constants, const double* frozen, const WideMat3* F,
+										  Wide stored[]) {
+	(void)constants, (void)F;
+	const WideMat3 R = frozen_rotation(frozen);
+	store_mat3(&R, stored);
 }
 
 /// A[ac][bd] = mu (d_ab d_cd + R_ad R_bc) + lambda R_ac R_bd.

@@ -4,6 +4,7 @@
 ///   <law>_energy(constants, frozen, F)        energy density Psi [J/m^3]
 ///   <law>_stress(constants, frozen, F, P)     first Piola stress P = dPsi/dF [Pa]
 ///   <law>_tangent(constants, frozen, F, A)    A = dP/dF [Pa], 9x9 and symmetric
+///   <law>_linearize(constants, frozen, F, stored)   what differential.h needs for dP/dF : D: <law>_STORED numbers
 ///
 /// `constants` come from the law's prepare(); `frozen` points at [frozen_reals][JN_WIDE] numbers, or is NULL.
 /// Entry (a, c) of F has the index 3 a + c in A; formulas write A[ac][bd].
@@ -22,7 +23,22 @@ typedef struct WideTangent {
 
 typedef Wide WideEnergy(const double* constants, const double* frozen, const WideMat3* F);
 typedef void WideStress(const double* constants, const double* frozen, const WideMat3* F, WideMat3* P);
+typedef void WideLinearize(const double* constants, const double* frozen, const WideMat3* F, Wide stored[]);
 typedef void WideTangentOf(const double* constants, const double* frozen, const WideMat3* F, WideTangent* A);
+
+JN_INLINE void store_mat3(const WideMat3* A, Wide stored[9]) {
+	JN_UNROLL for (int i = 0; i < 9; i++) stored[i] = A->at[i / 3][i % 3];
+}
+
+/// The lower triangle by rows.
+JN_INLINE void store_symmetric(const WideMat3* A, Wide stored[6]) {
+	stored[0] = A->at[0][0];
+	stored[1] = A->at[1][0];
+	stored[2] = A->at[1][1];
+	stored[3] = A->at[2][0];
+	stored[4] = A->at[2][1];
+	stored[5] = A->at[2][2];
+}
 
 /// Run a statement for every entry [ac][bd] of the lower half of a tangent.
 #define JN_EACH_TANGENT_ENTRY(statement)                                                                               \

@@ -5,6 +5,7 @@
 #define JN_FORCE_MATERIAL_NEO_HOOKEAN_H
 
 #include "force/material/law.h"
+#include "math/wide_logarithm.h"
 
 JN_INLINE Wide neo_hookean_energy(const double* constants, const double* frozen, const WideMat3* F) {
 	(void)frozen;
@@ -24,6 +25,16 @@ JN_INLINE void neo_hookean_stress(const double* constants, const double* frozen,
 	JN_UNROLL for (int i = 0; i < 9; i++) {
 		P->at[i / 3][i % 3] = wide_fma(of_cofactor, C.at[i / 3][i % 3], mu * F->at[i / 3][i % 3]);
 	}
+}
+
+enum { neo_hookean_STORED = 10 };
+
+JN_INLINE void neo_hookean_linearize(const double* constants, const double* frozen, const WideMat3* F, Wide stored[]) {
+	(void)frozen;
+	const WideMat3 C = wide_mat3_cofactor(F);
+	const Wide J = wide_mat3_determinant(F, &C), inverse = 1.0 / J;
+	JN_UNROLL for (int i = 0; i < 9; i++) stored[i] = C.at[i / 3][i % 3] * inverse;
+	stored[9] = constants[JN_LAW_MU] - constants[JN_LAW_LAMBDA] * wide_log(J);
 }
 
 /// A[ac][bd] = mu d_ab d_cd + (mu - lambda ln J) H_ad H_bc + lambda H_ac H_bd.

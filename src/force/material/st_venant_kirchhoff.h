@@ -3,7 +3,7 @@
 #ifndef JN_FORCE_MATERIAL_ST_VENANT_KIRCHHOFF_H
 #define JN_FORCE_MATERIAL_ST_VENANT_KIRCHHOFF_H
 
-#include "force/material/linear.h"
+#include "force/material/hooke.h"
 
 JN_INLINE WideMat3 green_strain(const WideMat3* F) {
 	WideMat3 E = wide_mat3_transposed_multiply(F, F);
@@ -24,6 +24,16 @@ JN_INLINE void st_venant_kirchhoff_stress(const double* constants, const double*
 	(void)frozen;
 	const WideMat3 E = green_strain(F), S = hooke_stress(constants, &E);
 	*P = wide_mat3_multiply(F, &S);
+}
+
+enum { st_venant_kirchhoff_STORED = 15 };
+
+JN_INLINE void st_venant_kirchhoff_linearize(const double* constants, const double* frozen, const WideMat3* F,
+											 Wide stored[]) {
+	(void)frozen;
+	const WideMat3 E = green_strain(F), S = hooke_stress(constants, &E);
+	store_mat3(F, stored);
+	store_symmetric(&S, stored + 9);
 }
 
 /// A[ac][bd] = d_ab S_cd + mu ((F F^T)_ab d_cd + F_ad F_bc) + lambda F_ac F_bd.

@@ -6,6 +6,7 @@
 #define JN_FORCE_MATERIAL_STABLE_NEO_HOOKEAN_H
 
 #include "force/material/law.h"
+#include "math/wide_logarithm.h"
 
 enum { STABLE_M = JN_LAW_OWN, STABLE_L, STABLE_ALPHA };
 
@@ -15,7 +16,8 @@ JN_INLINE Wide stable_neo_hookean_energy(const double* constants, const double* 
 	const WideMat3 C = wide_mat3_cofactor(F);
 	const Wide J = wide_mat3_determinant(F, &C), I_C = wide_mat3_dot(F, F);
 	// (J - alpha)^2 - (1 - alpha)^2 = (J - 1)(J + 1 - 2 alpha), and ln(I_C + 1) - ln 4: Psi_0 without cancellation
-	return 0.5 * m * ((I_C - 3.0) - wide_log(0.25 * (I_C + 1.0))) + 0.5 * l * (J - 1.0) * (J + (1.0 - 2.0 * alpha));
+	return 0.5 * m * ((I_C - 3.0) - wide_logarithm(0.25 * (I_C + 1.0))) +
+		   0.5 * l * (J - 1.0) * (J + (1.0 - 2.0 * alpha));
 }
 
 JN_INLINE void stable_neo_hookean_stress(const double* constants, const double* frozen, const WideMat3* F,
@@ -28,6 +30,20 @@ JN_INLINE void stable_neo_hookean_stress(const double* constants, const double* 
 	JN_UNROLL for (int i = 0; i < 9; i++) {
 		P->at[i / 3][i % 3] = wide_fma(of_F, F->at[i / 3][i % 3], of_cofactor * C.at[i / 3][i % 3]);
 	}
+}
+
+enum { stable_neo_hookean_STORED = 12 };
+
+JN_INLINE void stable_neo_hookean_linearize(const double* constants, const double* frozen, const WideMat3* F,
+											Wide stored[]) {
+	(void)frozen;
+	const double m = constants[STABLE_M], l = constants[STABLE_L], alpha = constants[STABLE_ALPHA];
+	const WideMat3 C = wide_mat3_cofactor(F);
+	const Wide inverse = 1.0 / (wide_mat3_dot(F, F) + 1.0);
+	store_mat3(F, stored);
+	stored[9] = m - m * inverse;
+	stored[10] = 2.0 * m * inverse * inverse;
+	stored[11] = l * (wide_mat3_determinant(F, &C) - alpha);
 }
 
 /// A[ac][bd] = m (1 - 1/(I_C + 1)) d_ab d_cd + 2 m/(I_C + 1)^2 F_ac F_bd + l C_ac C_bd + l (J - alpha) dC_ac/dF_bd,
