@@ -14,6 +14,8 @@ static inline void jn_report_add(JnReport* sum, const JnReport* one) {
 	sum->factorizations += one->factorizations;
 	sum->solves += one->solves;
 	sum->iterations += one->iterations;
+	for (int way = 0; way < JN_WAY_COUNT; ++way) sum->served[way] += one->served[way];
+	sum->changes += one->changes;
 	sum->indefinite += one->indefinite;
 	sum->backtracks += one->backtracks;
 	sum->minimized += one->minimized;

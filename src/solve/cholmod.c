@@ -13,6 +13,7 @@
 #include "base/log.h"
 #include "solve/blas.h"
 #include "solve/cholmod_half.h"
+#include "solve/direct.h"
 #include "solve/single.h"
 #include "solve/solver.h"
 
@@ -26,10 +27,10 @@ typedef struct Direct {
 	cholmod_common common;
 	cholmod_sparse* matrix; // lower triangle in the factor's order; entries held in free nodes are identity rows
 	cholmod_factor* symbolic;
-	cholmod_factor* factors[JN_SOLVER_SLOTS];
+	cholmod_factor* factors[JN_DIRECT_SLOTS];
 	cholmod_dense *rhs, *solution, *work1, *work2;
 	cholmod_dense *many_rhs, *many_solution, *many_work1, *many_work2; // of solve_many, for its last count
-	float* single[JN_SOLVER_SLOTS]; // the factors once more, in single precision, then their inverse diagonals
+	float* single[JN_DIRECT_SLOTS]; // the factors once more, in single precision, then their inverse diagonals
 	size_t* single_panel;           // where panels begin, and the size of all
 	float *single_x, *single_work;  // a vector, and a panel's rows
 	JnSingleSolve* single_solve;    // NULL: double precision only
@@ -55,7 +56,7 @@ static void destroy(JnSolver* solver) {
 	if (solver == NULL) return;
 	Direct* direct = (Direct*)solver;
 	cholmod_common* common = &direct->common;
-	for (int slot = 0; slot < JN_SOLVER_SLOTS; ++slot) {
+	for (int slot = 0; slot < JN_DIRECT_SLOTS; ++slot) {
 		cholmod_free_factor(&direct->factors[slot], common);
 		free(direct->single[slot]);
 	}
@@ -325,7 +326,7 @@ static void fill(Direct* direct, const double* blocks) {
 }
 
 static JnSingleFactor single_factor(const Direct* direct, int slot) {
-	const cholmod_factor* factor = direct->factors[slot];
+	const cholmod_factor* factor = direct->symbolic; // whose structure all have
 	return (JnSingleFactor){.supernodes = (int)factor->nsuper,
 							.super = factor->super,
 							.pi = factor->pi,
@@ -420,7 +421,8 @@ static JnStatus solve_many(JnSolver* solver, int slot, int count, const double* 
 	return JN_OK;
 }
 
-static JnStatus approximate(JnSolver* solver, int slot, const double* rhs, double* out) {
+static JnStatus approximate(JnSolver* solver, int slot, double tolerance, const double* rhs, double* out) {
+	(void)tolerance;
 	Direct* direct = (Direct*)solver;
 	if (direct->single_solve == NULL) return solve(solver, slot, rhs, out);
 	const JnSingleFactor single = single_factor(direct, slot);
@@ -436,6 +438,28 @@ static JnStatus approximate(JnSolver* solver, int slot, const double* rhs, doubl
 	for (size_t k = 0; k < entries; ++k)
 		out[k] = direct->position[k] >= 0 ? scale * (double)direct->single_x[direct->position[k]] : 0;
 	return JN_OK;
+}
+
+void jn_direct_solve_nodes(JnSolver* solver, int slot, const float* r, float* z) {
+	Direct* direct = (Direct*)solver;
+	const JnSingleFactor single = single_factor(direct, slot);
+	const size_t nodes = (size_t)direct->pattern->nodes;
+	memset(direct->single_x, 0, direct->matrix->nrow * sizeof *direct->single_x);
+	for (size_t k = 0; k < 3 * nodes; ++k)
+		if (direct->position[k] >= 0) direct->single_x[direct->position[k]] = r[4 * (k / 3) + k % 3];
+	direct->single_solve(&single, direct->single_x, direct->single_work);
+	for (size_t node = 0; node < nodes; ++node) {
+		for (size_t axis = 0; axis < 3; ++axis) {
+			const int place = direct->position[3 * node + axis];
+			z[4 * node + axis] = place >= 0 ? direct->single_x[place] : 0;
+		}
+		z[4 * node + 3] = 0;
+	}
+}
+
+void jn_direct_keep_single(JnSolver* solver, int slot) {
+	Direct* direct = (Direct*)solver;
+	cholmod_free_factor(&direct->factors[slot], &direct->common);
 }
 
 static JnStatus half(JnSolver* solver, int slot, const JnColumns* columns, JnHalf* out) {

@@ -159,12 +159,17 @@ static JnSolverCost cost(const JnSolver* solver) {
 	return ((const Lu*)solver)->cost;
 }
 
+static JnStatus approximate(JnSolver* solver, int slot, double tolerance, const double* rhs, double* out) {
+	(void)tolerance;
+	return solve(solver, slot, rhs, out);
+}
+
 const JnSolverType jn_solver_unsymmetric = {
 	.row = {.name = "unsymmetric", .doc = "sparse LU (UMFPACK), analysed once, its factors kept while they serve"},
 	.create = create,
 	.destroy = destroy,
 	.factor = factor,
 	.solve = solve,
-	.approximate = solve,
+	.approximate = approximate,
 	.cost = cost,
 };

@@ -4,7 +4,7 @@
 #ifndef JN_TEST_SOLVE_QP_CASE_H
 #define JN_TEST_SOLVE_QP_CASE_H
 
-#include "model/system.h"
+#include "model/stiffness.h"
 #include "solve/qp.h"
 #include "support/model_case.h"
 
@@ -167,7 +167,7 @@ static inline void qp_case_boxes(QpCase* c, QpBoxes def) {
 	model.fix[0].where = face_select(def.clamp);
 	rig_create(&rig, &model, 1);
 	assert_int_equal(rig.sys->ops->linearize(rig.sys, &rig.start), JN_OK);
-	const JnModelSystem* sys = (const JnModelSystem*)rig.sys;
+	const double* stiffness = jn_stiffness_blocks((JnModelSystem*)rig.sys, JN_EXACT);
 	const JnPattern* pattern = &rig.model->pattern;
 	qp_repeat_pattern(c, pattern, def.copies);
 	QP_TAKE(c, blocks, 9 * c->pattern.blocks), QP_TAKE(c, held, 3 * c->pattern.nodes);
@@ -177,7 +177,7 @@ static inline void qp_case_boxes(QpCase* c, QpBoxes def) {
 		memcpy(c->place + b * rig.length, rig.model->rest, (size_t)rig.length * sizeof *c->place);
 		double* blocks = c->blocks + 9 * (size_t)b * (size_t)pattern->blocks;
 		for (int k = 0; k < 9 * pattern->blocks; ++k)
-			blocks[k] = def.dt * def.dt * sys->stiffness[k] + (k % 9 % 4 == 0 ? rig.model->mass[k / 9] : 0);
+			blocks[k] = def.dt * def.dt * stiffness[k] + (k % 9 % 4 == 0 ? rig.model->mass[k / 9] : 0);
 	}
 	rig_destroy(&rig);
 	c->body_pattern = qp_first_body(&c->pattern, c->pattern.nodes / def.copies);
