@@ -59,18 +59,34 @@ typedef struct JnState {
 	uint64_t stamp; ///< renewed by jn_state_touch() at every edit of t or x; equal stamps mean equal t and x
 } JnState;
 
+/// How a linear system was solved: with a factor, or by conjugate gradients with a preconditioner.
+typedef enum JnWay {
+	JN_WAY_DIRECT,     ///< sparse Cholesky factor of the matrix
+	JN_WAY_PLAIN,      ///< no preconditioner
+	JN_WAY_BLOCK,      ///< the inverse diagonal blocks
+	JN_WAY_KEPT,       ///< a factor of an earlier matrix, carried along by the rotations of the nodes
+	JN_WAY_INCOMPLETE, ///< an incomplete factor
+	JN_WAY_MULTIGRID,
+	JN_WAY_COUNT
+} JnWay;
+
+/// Its word in scene files and statistics.
+const char* jn_way_name(JnWay way);
+
 /// What one step, or one attempt, has cost. Counts, summed over its stages.
 typedef struct JnReport {
-	int newton;         ///< Newton iterations
-	int forces;         ///< evaluations of f
-	int tangents;       ///< assemblies of K
-	int factorizations; ///< numeric factorisations
-	int solves;         ///< solves with a factor
-	int iterations;     ///< of those solves, where the linear solver iterates
-	int indefinite;     ///< Newton matrices that were indefinite and were replaced by the definite form
-	int backtracks;     ///< halvings in the line search
-	int minimized;      ///< stages that newton.mode auto handed over from root to minimize
-	int rejected;       ///< attempts thrown away before this one
+	int newton;               ///< Newton iterations
+	int forces;               ///< evaluations of f
+	int tangents;             ///< assemblies of K
+	int factorizations;       ///< numeric factorisations
+	int solves;               ///< solves with a factor
+	int iterations;           ///< of those solves, where the linear solver iterates
+	int served[JN_WAY_COUNT]; ///< those solves again, by their way
+	int changes;              ///< from one way to another
+	int indefinite;           ///< Newton matrices that were indefinite and were replaced by the definite form
+	int backtracks;           ///< halvings in the line search
+	int minimized;            ///< stages that newton.mode auto handed over from root to minimize
+	int rejected;             ///< attempts thrown away before this one
 	double error;    ///< embedded estimate of the step's error in position, largest entry [m]; 0: the method has none
 	double residual; ///< residual norm at the end of the last stage, relative to the force scale
 	double seconds_predict; ///< wall time of the integrator [s]

@@ -136,8 +136,9 @@ typedef struct JnShift {
 typedef struct JnMatrixOps {
 	void (*apply)(JnMatrix*, const double* in, JnVec out);      ///< out = matrix * in, held entries included
 	JnStatus (*solve)(JnMatrix*, const double* rhs, JnVec out); ///< factors on first use; held entries of out are 0
-	/// Like solve, to about six digits and faster: a direction for iterations that measure their residual. NULL: use solve.
-	JnStatus (*approximate)(JnMatrix*, const double* rhs, JnVec out);
+	/// Like solve and faster: a direction for iterations that measure their residual. |rhs - matrix out| need not be below
+	/// tolerance |rhs|, and is never asked to be below 1e-6 |rhs|. NULL: use solve.
+	JnStatus (*approximate)(JnMatrix*, double tolerance, const double* rhs, JnVec out);
 } JnMatrixOps;
 
 struct JnMatrix {
@@ -145,6 +146,9 @@ struct JnMatrix {
 	JnSystem* sys;
 	bool is_factored;    ///< a solve needs no new factorisation
 	double refresh_cost; ///< cost of a new tangent and factorisation, in iterations that use a kept one
+	/// Solves are iterations that cost by their tolerance, and a new tangent costs next to nothing beside them. May change
+	/// from solve to solve.
+	bool is_iterative;
 };
 
 typedef struct JnSystemOps {
@@ -158,6 +162,9 @@ typedef struct JnSystemOps {
 	/// Largest change of a length between neighbours, relative to their distance at rest (to 1 m where that is zero). NULL: not
 	/// known; the controller stretch_limit is then refused.
 	double (*stretch)(JnSystem*, const JnState* from, const JnState* to);
+	/// to->v = from->v + kick M^-1 f(from), to->x = from->x + drift to->v, in one pass over the vectors; held entries become
+	/// anything, t and stamp stay. `to` may be `from`. Where M is diagonal. NULL: made of force, matrix and combine.
+	JnStatus (*advance)(JnSystem*, const JnState* from, double kick, double drift, JnState* to);
 } JnSystemOps;
 
 struct JnSystem {
@@ -249,24 +256,29 @@ typedef struct JnNewtonDef {
 	double tolerance;   ///< residual norm relative to the system's force scale
 	int max_iterations; ///< a stage
 	int reuse;          ///< 0 auto: keep K and its factor while they serve; 1 never
-	int guess; ///< first guess of a stage: 0 zero; 1 the last acceleration found; 2 the line through the last two; 3
-			   ///< whichever of them was nearest of late
+	/// First guess of a stage: 0 zero; 1 the last acceleration found; 2 the line through the last two; 3 that of the same
+	/// stage a step ago, moved as the last one has moved since a step ago; 4 whichever of them was nearest of late
+	int guess;
 } JnNewtonDef;
+
+enum { JN_RECENT_COUNT = 4 }; ///< accelerations that an integrator keeps for first guesses
 
 struct JnIntegrator {
 	const JnIntegratorType* type;
 	const void* options; ///< struct of type->row.keys, or NULL
 	JnNewtonDef newton;
 	JnSpace* space;
-	JnVec* vectors;        ///< type->vectors of the method, behind them those of the stage solver
-	void* memory;          ///< history of multistep methods
-	uint64_t linearized;   ///< stamp at which the kept K was made; 0: none
-	uint64_t step_stamp;   ///< stamp of the start of the present step
-	int base_iterations;   ///< of the first stage that the kept factor served; judges when it has become too old
-	double excess;         ///< iterations above base_iterations since then
-	int recent_count;      ///< accelerations kept for first guesses: 0, 1 or 2
-	double recent_t[2];    ///< their times [s], the latest first
-	double guess_error[3]; ///< how far guesses 0 to 2 were from the solutions of late [m/s^2]; 0: not known
+	JnVec* vectors;      ///< type->vectors of the method, behind them those of the stage solver
+	void* memory;        ///< history of multistep methods
+	uint64_t linearized; ///< stamp at which the kept K was made; 0: none
+	uint64_t step_stamp; ///< stamp of the start of the present step
+	int base_iterations; ///< of the first stage that the kept factor served; judges when it has become too old
+	double excess;       ///< iterations above base_iterations since then
+	double curvature;    ///< c where a Newton step leaves c |r|^2 of the residual r [1/N]; 0: not known
+	int recent_count;    ///< accelerations kept for first guesses
+	double recent_t[JN_RECENT_COUNT];                    ///< their times [s], the latest first
+	double recent_dot[JN_RECENT_COUNT][JN_RECENT_COUNT]; ///< their dot products [m^2/s^4]
+	double guess_error[4]; ///< how far guesses 0 to 3 were from the solutions of late [m/s^2]; 0: not known
 };
 
 /// Find a with  M a = w f(t, x + kx a, v + kv a) + load:  the only nonlinear problem that implicit methods have.

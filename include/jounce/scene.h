@@ -84,7 +84,9 @@ typedef struct JnRunOptions {
 /// What a run came to.
 typedef struct JnRunResult {
 	bool was_stopped;
-	long steps, frames, rejected, newton, factorizations;
+	long steps, frames, rejected, newton, factorizations, solves, iterations;
+	long served[JN_WAY_COUNT]; ///< solves by their way
+	long changes;              ///< from one way to another
 	double t, wall_seconds;
 	double specific_error; ///< at the end [J/kg]
 	int nodes, elements;

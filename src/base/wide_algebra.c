@@ -136,5 +136,35 @@ static void accumulate(size_t n, double scale, const double* a, const double* b,
 	INDEPENDENT for (size_t k = 0; k < n; ++k) out[k] += scale * (a[k] * b[k]);
 }
 
+static inline __attribute__((always_inline)) bool advance_with(size_t first, size_t last, const JnAdvance* by,
+															   bool has_load, bool has_drift) {
+	const double *m = by->inverse_mass, *force = by->force;
+	Mask is_finite = ~(Mask){0};
+	bool all_finite = true;
+	size_t k = first;
+	for (; k + JN_WIDE <= last; k += JN_WIDE) {
+		Wide f = *(const Loaded*)(force + k);
+		if (has_load) f += *(const Loaded*)(by->load + k);
+		const Wide v = *(const Loaded*)(by->v + k) + by->kick * (*(const Loaded*)(m + k) * f);
+		is_finite &= (Wide)((Mask)v & INT64_MAX) <= DBL_MAX;
+		if (has_drift) *(Loaded*)(by->x_out + k) = *(const Loaded*)(by->x + k) + by->drift * v;
+		*(Loaded*)(by->v_out + k) = v;
+	}
+	for (; k < last; ++k) {
+		const double f = has_load ? force[k] + by->load[k] : force[k], v = by->v[k] + by->kick * (m[k] * f);
+		all_finite &= fabs(v) <= DBL_MAX;
+		if (has_drift) by->x_out[k] = by->x[k] + by->drift * v;
+		by->v_out[k] = v;
+	}
+	for (int l = 0; l < JN_WIDE; ++l) all_finite &= is_finite[l] != 0;
+	return all_finite;
+}
+
+static bool advance(size_t first, size_t last, const JnAdvance* by) {
+	if (by->load != NULL)
+		return by->drift != 0 ? advance_with(first, last, by, true, true) : advance_with(first, last, by, true, false);
+	return by->drift != 0 ? advance_with(first, last, by, false, true) : advance_with(first, last, by, false, false);
+}
+
 const JnAlgebra JOIN(jn_algebra_, JN_WIDE) = {
-	.combine = combine, .dot = dot, .max = max, .multiply = multiply, .accumulate = accumulate};
+	.combine = combine, .dot = dot, .max = max, .multiply = multiply, .accumulate = accumulate, .advance = advance};

@@ -13,39 +13,41 @@
 /// Work vectors.
 enum { ACCELERATION, VECTORS };
 
-// The stamp stays: what a system keeps by stamp are forces without their part in v. Thus the forces of a last kick are
-// known to the next step, and those known at the start serve a first kick.
-static JnStatus kick(JnIntegrator* self, const JnStep* step, double share) {
-	JnState* s = step->end;
+// to->v = from->v + kick M^-1 f, to->x = from->x + drift to->v. The work vector takes accelerations, where the system has
+// no such verb of its own.
+static JnStatus advance(JnIntegrator* self, const JnStep* step, const JnState* from, double kick, double drift) {
+	JnSpace* space = self->space;
+	JnState* to = step->end;
 	JnVec a = self->vectors[ACCELERATION];
-	JN_TRY(jn_acceleration(self, step->sys, s, a));
-	self->space->ops->combine(self->space, s->v, 2, (JnTerm[]){{1, s->v}, {share * step->dt, a}});
-	return JN_OK;
+	if (step->sys->ops->advance != NULL && step->sys->mass_is_diagonal)
+		return step->sys->ops->advance(step->sys, from, kick, drift, to);
+	if (from != to) jn_state_copy(space, from, to);
+	if (kick != 0) JN_TRY(jn_acceleration(self, step->sys, to, a));
+	if (kick != 0) space->ops->combine(space, to->v, 2, (JnTerm[]){{1, to->v}, {kick, a}});
+	if (drift != 0) space->ops->combine(space, to->x, 2, (JnTerm[]){{1, to->x}, {drift, to->v}});
+	return jn_state_check(space, to);
 }
 
-static void drift(JnIntegrator* self, const JnStep* step, double share, double elapsed) {
-	JnState* s = step->end;
-	self->space->ops->combine(self->space, s->x, 2, (JnTerm[]){{1, s->x}, {share * step->dt, s->v}});
-	s->t = step->start->t + elapsed * step->dt;
-	step->sys->ops->prescribe(step->sys, s, NULL);
-	jn_state_touch(self->space, s);
-}
-
-// The end is not touched once more: after a last drift its stamp is new and nothing is known by it yet; a last kick
-// stands at elapsed = 1, so that prescribe writes the positions that are there and corrects velocities alone.
+// A kick alone leaves the stamp: what a system keeps by stamp are forces without their part in v. Thus the forces of a last
+// kick are known to the next step, and those known at the start serve a first kick. A last kick stands at elapsed = 1, so
+// that prescribe writes the positions that are there and corrects velocities alone.
 static JnStatus composition_step(JnIntegrator* self, JnStep* step) {
 	const JnComposition* table = self->type->table;
+	const JnState* from = step->start;
+	JnState* end = step->end;
 	step->sys->report = &step->report;
-	jn_state_copy(self->space, step->start, step->end);
 	double elapsed = 0;
 	for (int i = 0; i < table->count; ++i) {
-		if (table->kick[i] != 0) JN_TRY(kick(self, step, table->kick[i]));
+		const double kick = table->kick[i] * step->dt, drift = table->drift[i] * step->dt;
+		JN_TRY(advance(self, step, from, kick, drift));
 		elapsed += table->drift[i];
-		if (table->drift[i] != 0) drift(self, step, table->drift[i], elapsed);
+		end->t = i + 1 < table->count ? step->start->t + elapsed * step->dt : step->start->t + step->dt;
+		step->sys->ops->prescribe(step->sys, end, NULL);
+		end->stamp = from->stamp;
+		if (drift != 0) jn_state_touch(self->space, end);
+		from = end;
 	}
-	step->end->t = step->start->t + step->dt;
-	step->sys->ops->prescribe(step->sys, step->end, NULL);
-	return jn_state_check(self->space, step->end);
+	return JN_OK;
 }
 
 static const JnComposition symplectic_euler = {1, {1}, {1}};

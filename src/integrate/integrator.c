@@ -60,6 +60,7 @@ void jn_integrator_destroy(JnIntegrator* self) {
 
 void jn_integrator_forget(JnIntegrator* self) {
 	self->linearized = 0;
+	self->curvature = 0;
 	self->recent_count = 0;
 	memset(self->guess_error, 0, sizeof self->guess_error);
 }
@@ -97,7 +98,7 @@ JnStatus jn_state_check(JnSpace* space, const JnState* s) {
 
 static const char* const modes[] = {"root", "linear", "minimize", "auto", NULL};
 static const char* const reuses[] = {"auto", "never", NULL};
-static const char* const guesses[] = {"zero", "last", "linear", "auto", NULL};
+static const char* const guesses[] = {"zero", "last", "linear", "parallel", "auto", NULL};
 
 const JnKey jn_newton_keys[] = {
 	{.name = "mode",
@@ -134,8 +135,10 @@ const JnKey jn_newton_keys[] = {
 	 .kind = JN_CHOICE,
 	 .field = offsetof(JnNewtonDef, guess),
 	 .names = guesses,
-	 .value = {3},
-	 .meaning = "first guess of a stage's acceleration: zero, the last one found, the line through the last two, or "
-				"whichever of these was nearest of late"},
+	 .value = {4},
+	 .meaning =
+		 "first guess of a stage's acceleration: zero; the last one found; the line through the last two; parallel: "
+		 "that of the same stage a step ago, moved as the last one has moved since a step ago; auto: whichever of "
+		 "these was nearest of late"},
 	{0},
 };

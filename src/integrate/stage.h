@@ -6,8 +6,8 @@
 /// Number of secant steps that the quasi-Newton update remembers.
 enum { JN_STAGE_SECANTS = 12 };
 
-/// Vectors that jn_stage_solve needs: residual, M a, step, last a that served, D step, the two latest solutions, secant
-/// steps.
+/// Vectors that jn_stage_solve needs: residual, M a, step, last a that served, D step, the latest solutions (0 where
+/// entries are held), secant steps.
 enum {
 	JN_STAGE_RESIDUAL,
 	JN_STAGE_MASS,
@@ -15,7 +15,7 @@ enum {
 	JN_STAGE_ORIGIN,
 	JN_STAGE_DAMPING,
 	JN_STAGE_RECENT,
-	JN_STAGE_SECANT = JN_STAGE_RECENT + 2,
+	JN_STAGE_SECANT = JN_STAGE_RECENT + JN_RECENT_COUNT,
 	JN_STAGE_VECTORS = JN_STAGE_SECANT + JN_STAGE_SECANTS
 };
 

@@ -147,7 +147,7 @@ static JnStatus definite_direction(JnStageSolver* stage) {
 	for (int part = 1; part <= LEAST_PART; ++part) {
 		JnMatrix* matrix = NULL;
 		JN_TRY(jn_stage_matrix(stage, ldexp(1, -3 * part), &matrix));
-		const JnStatus status = matrix->ops->solve(matrix, stage->residual, stage->step);
+		const JnStatus status = jn_stage_thorough(stage, matrix);
 		if (status == JN_OK && descends(stage)) return find_mass(stage);
 		if (status < JN_OK) return status;
 	}
@@ -156,17 +156,15 @@ static JnStatus definite_direction(JnStageSolver* stage) {
 }
 
 // A full step with whatever tangent there is; what does not serve is taken back.
-static JnStatus try_quickly(JnStageSolver* stage, bool* must_refresh) {
+static JnStatus try_quickly(JnStageSolver* stage, bool* failed) {
 	JnSpace* space = stage->sys->space;
 	space->ops->combine(space, stage->a, 2, (JnTerm[]){{1, stage->origin}, {1, stage->step}});
 	const JnStatus status = jn_stage_evaluate(stage);
 	if (status != JN_OK && status != JN_NOT_FINITE) return status;
-	if (status == JN_OK && is_quick(stage)) {
-		jn_stage_remember(stage);
-		return JN_OK;
-	}
-	*must_refresh = true;
-	return jn_stage_return(stage);
+	*failed = status != JN_OK || !is_quick(stage);
+	if (*failed) return jn_stage_return(stage);
+	jn_stage_remember(stage);
+	return JN_OK;
 }
 
 // What Newton's step would still change is less than the rounding of positions.
@@ -176,33 +174,30 @@ static bool is_at_rest(const JnStageSolver* stage) {
 	return moved <= 4 * DBL_EPSILON * space->ops->max(space, stage->s->x);
 }
 
-// A tangent of the present a and full solves: what fails now fails for good.
-static JnStatus try_thoroughly(JnStageSolver* stage, bool falls, bool* must_refresh) {
+// A tangent of the present a and full solves: what fails now fails for good. With inexact ones, full solves come next.
+static JnStatus try_thoroughly(JnStageSolver* stage, bool falls, bool* failed) {
 	bool found = false;
-	*must_refresh = true;
 	if (falls && is_at_rest(stage)) {
 		stage->tolerance = stage->norm;
 		return JN_OK;
 	}
 	if (!falls) JN_TRY(definite_direction(stage));
 	JN_TRY(search(stage, &found));
+	*failed = !found || !stage->is_inexact;
 	if (found) return JN_OK;
 	JN_TRY(jn_stage_return(stage));
-	return jn_stage_arrive(stage);
+	return stage->is_inexact ? JN_OK : jn_stage_arrive(stage);
 }
 
-JnStatus jn_stage_iterate_minimize(JnStageSolver* stage, bool* must_refresh) {
-	const bool is_thorough = stage->is_fresh && stage->is_exact;
+JnStatus jn_stage_iterate_minimize(JnStageSolver* stage, bool* failed) {
+	const bool is_thorough = stage->is_fresh && (stage->is_exact || stage->is_inexact);
 	const JnStatus status = jn_stage_direction(stage);
 	if (status != JN_OK && status != JN_INDEFINITE) return status;
 	const bool falls = status == JN_OK && descends(stage);
 	stage->is_fresh = false;
-	if (is_thorough)
-		JN_TRY(try_thoroughly(stage, falls, must_refresh));
-	else if (falls)
-		JN_TRY(try_quickly(stage, must_refresh));
-	else
-		*must_refresh = true;
+	*failed = true;
+	if (falls && !(is_thorough && stage->is_exact)) JN_TRY(try_quickly(stage, failed));
+	if (is_thorough && *failed) JN_TRY(try_thoroughly(stage, falls, failed));
 	stage->lowest = fmin(stage->lowest, stage->norm);
 	return JN_OK;
 }

@@ -18,8 +18,9 @@ static JnStatus try_length(JnStageSolver* stage, double length, bool* falls) {
 	return JN_OK;
 }
 
-// A full step that fails with an old tangent asks for a new one; with a new one, the step is halved.
-JnStatus jn_stage_iterate_root(JnStageSolver* stage, bool* must_refresh) {
+// A full step that fails with an old tangent, or a rough solve by a factor, asks for better; else the step is halved: an
+// inexact Newton step leads down the norm of the residual as an exact one does (Eisenstat, Walker 1994).
+JnStatus jn_stage_iterate_root(JnStageSolver* stage, bool* failed) {
 	JN_TRY(jn_stage_direction(stage));
 	bool falls = false;
 	JN_TRY(try_length(stage, 1, &falls));
@@ -28,8 +29,8 @@ JnStatus jn_stage_iterate_root(JnStageSolver* stage, bool* must_refresh) {
 		stage->is_fresh = false;
 		return JN_OK;
 	}
-	if (!stage->is_fresh || !stage->is_exact) {
-		*must_refresh = true;
+	if (!stage->is_fresh || !(stage->is_exact || stage->is_inexact)) {
+		*failed = true;
 		return jn_stage_return(stage);
 	}
 	double length = 1;
@@ -39,16 +40,15 @@ JnStatus jn_stage_iterate_root(JnStageSolver* stage, bool* must_refresh) {
 		JN_TRY(try_length(stage, length, &falls));
 	}
 	stage->is_fresh = false;
-	*must_refresh = true;
+	*failed = !falls || !stage->is_inexact;
 	if (falls) return JN_OK;
 	JN_TRY(jn_stage_return(stage));
-	return jn_stage_arrive(stage);
+	return stage->is_inexact ? JN_OK : jn_stage_arrive(stage);
 }
 
 JnStatus jn_stage_linear(JnStageSolver* stage) {
 	JnSpace* space = stage->sys->space;
-	stage->is_exact = true;
-	JN_TRY(jn_stage_refresh(stage));
+	JN_TRY(jn_stage_only_tangent(stage));
 	JN_TRY(jn_stage_direction(stage));
 	space->ops->combine(space, stage->a, 2, (JnTerm[]){{1, stage->a}, {1, stage->step}});
 	return jn_stage_evaluate(stage);

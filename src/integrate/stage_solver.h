@@ -8,7 +8,7 @@
 
 enum { JN_MODE_ROOT, JN_MODE_LINEAR, JN_MODE_MINIMIZE, JN_MODE_AUTO };
 enum { JN_REUSE_AUTO, JN_REUSE_NEVER };
-enum { JN_GUESS_ZERO, JN_GUESS_LAST, JN_GUESS_LINEAR, JN_GUESS_AUTO };
+enum { JN_GUESS_ZERO, JN_GUESS_LAST, JN_GUESS_LINEAR, JN_GUESS_PARALLEL, JN_GUESS_AUTO };
 
 typedef struct JnStageSolver {
 	JnIntegrator* self;
@@ -24,7 +24,9 @@ typedef struct JnStageSolver {
 	bool is_fresh;          ///< the tangent was made at the present a
 	bool is_careful;        ///< a new tangent at every iteration, whatever the options say
 	bool is_exact;          ///< directions by full solves: approximate ones did not serve
-	bool gives_up_early;    ///< a residual that stalls ends the loop: something else takes over
+	bool is_inexact; ///< the solver iterates: every direction has its own tangent, and the accuracy that it is worth
+	double forcing;  ///< of the last direction, if inexact: |r - A step| is at most forcing |r|
+	bool gives_up_early; ///< a residual that stalls ends the loop: something else takes over
 
 	bool wants_energy;    ///< jn_stage_evaluate fills the two below
 	double energy;        ///< sum over points of w E / kx; NAN when there is none
@@ -42,11 +44,37 @@ JnStatus jn_stage_return(JnStageSolver* stage);
 /// The matrix -dr/da, with the tangent of one state for all points, and only a `share` of K.
 JnStatus jn_stage_matrix(JnStageSolver* stage, double share, JnMatrix** out);
 
-/// step = Newton's, from the kept tangent and the secants since it was made; origin = a. Counts an iteration.
+/// a = the first guess.
+void jn_stage_guess(JnStageSolver* stage);
+
+/// a solves the stage: later guesses learn from it.
+void jn_stage_keep(JnStageSolver* stage);
+
+/// The tangent of a first direction: a new one, or one kept from earlier.
+JnStatus jn_stage_first_tangent(JnStageSolver* stage);
+
+/// That of the next direction, after an iteration that began with a residual of norm `before`. failed: it found no way on
+/// with the direction that it had.
+JnStatus jn_stage_next_tangent(JnStageSolver* stage, bool failed, double before);
+
+/// That of the only direction that there will be: a new one.
+JnStatus jn_stage_only_tangent(JnStageSolver* stage);
+
+/// step = Newton's, from the present tangent and, if that is kept, the secants since it was made; origin = a. Counts an
+/// iteration.
 JnStatus jn_stage_direction(JnStageSolver* stage);
 
-/// A full step was taken: the next direction learns from it.
+/// step = A^-1 r with a matrix of the stage: exactly, or to six digits by a solver that iterates, where these are enough.
+JnStatus jn_stage_thorough(JnStageSolver* stage, JnMatrix* matrix);
+
+/// A full step was taken: the next direction by the same tangent learns from it.
 void jn_stage_remember(JnStageSolver* stage);
+
+/// What an iteration from a residual of norm `before` tells about the accuracy that directions are worth.
+void jn_stage_learn(JnStageSolver* stage, double before);
+
+/// The stage took so many iterations: how old has the kept tangent become?
+void jn_stage_judge_age(JnStageSolver* stage, int iterations);
 
 /// A new tangent at s.
 JnStatus jn_stage_refresh(JnStageSolver* stage);
@@ -54,8 +82,8 @@ JnStatus jn_stage_refresh(JnStageSolver* stage);
 /// The search found nothing better: rounding if the residual is that small, else JN_NOT_CONVERGED.
 JnStatus jn_stage_arrive(JnStageSolver* stage);
 
-/// One iteration: moves a, or asks for a new tangent, or both.
-typedef JnStatus JnStageIterate(JnStageSolver* stage, bool* must_refresh);
+/// One iteration: moves a, or tells that the direction failed, or both.
+typedef JnStatus JnStageIterate(JnStageSolver* stage, bool* failed);
 
 /// Iterate until the residual is below the tolerance, with a new tangent whenever that pays.
 JnStatus jn_stage_loop(JnStageSolver* stage, JnStageIterate* iterate);

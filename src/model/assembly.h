@@ -23,13 +23,17 @@ void jn_assembly_force(JnAssembly* assembly, const double* x, double* f);
 void jn_assembly_tangent(JnAssembly* assembly, const double* x, JnDefinite definite, const double* weight,
 						 double* blocks);
 
-/// y += scale * sum over groups of weight[group] * K p, K at x, without a matrix: for models that are matrix-free.
+/// Where K is taken.
 typedef struct JnTangentAt {
 	const double* x;
 	JnDefinite definite;
 	const double* weight; ///< one a group; NULL: 1 for all
 } JnTangentAt;
 
+/// blocks[9 * node] = the diagonal blocks of the sum over groups of weight[group] * K.
+void jn_assembly_diagonal(JnAssembly* assembly, JnTangentAt tangent, double* blocks);
+
+/// y += scale * sum over groups of weight[group] * K p, K at x, without a matrix. Every kernel has products.
 void jn_assembly_product(JnAssembly* assembly, JnTangentAt tangent, double scale, const double* p, double* y);
 
 /// Elastic energy [J], summed in element order.

@@ -14,6 +14,7 @@ static void assemble(JnModelSystem* sys, const double* x) {
 static void make(JnModelSystem* sys, const double* x, uint64_t stamp) {
 	if (sys->damping_x != NULL) memcpy(sys->damping_x, x, sys->base.space->length * sizeof *x);
 	sys->damping_is_assembled = false;
+	sys->damping_single_is_current = false;
 	sys->damping_stamp = stamp;
 	if (sys->damping_x == NULL) assemble(sys, x);
 	jn_model_matrix_expire(sys);
@@ -23,6 +24,29 @@ const double* jn_damping_blocks(JnModelSystem* sys) {
 	if (!sys->damping_acts || sys->damping == NULL) return NULL;
 	if (!sys->damping_is_assembled) assemble(sys, sys->damping_x);
 	return sys->damping;
+}
+
+const double* jn_damping_diagonal(JnModelSystem* sys) {
+	const JnPattern* pattern = &sys->model->pattern;
+	const JnTangentAt at = {.x = sys->damping_x, .definite = JN_DEFINITE, .weight = sys->beta};
+	if (!sys->damping_acts || sys->damping == NULL) return NULL;
+	if (sys->model->is_matrix_free) return jn_damping_blocks(sys);
+	if (sys->damping_x != NULL) {
+		jn_assembly_diagonal(sys->assembly, at, sys->damping_diagonal);
+		return sys->damping_diagonal;
+	}
+	for (int node = 0; node < pattern->nodes; ++node)
+		memcpy(sys->damping_diagonal + 9 * (size_t)node, sys->damping + 9 * (size_t)pattern->column_start[node],
+			   9 * sizeof(double));
+	return sys->damping_diagonal;
+}
+
+const JnStored* jn_damping_single(JnModelSystem* sys) {
+	const JnTangentAt at = {.x = sys->damping_x, .definite = JN_DEFINITE, .weight = sys->beta};
+	if (!sys->damping_acts || sys->damping_x == NULL) return NULL;
+	if (!sys->damping_single_is_current)
+		sys->damping_single_is_current = jn_assembly_store(sys->assembly, at, &sys->damping_single);
+	return sys->damping_single_is_current ? &sys->damping_single : NULL;
 }
 
 void jn_damping_apply(const JnModelSystem* sys, double scale, const double* in, double* out) {
@@ -135,6 +159,7 @@ JnStatus jn_damping_create(JnModelSystem* sys) {
 		for (int g = 0; g < model->bodies[b].group_count; ++g)
 			sys->beta[model->bodies[b].first_group + g] = jn_group_beta(model, &model->bodies[b], g);
 	if (model->has_beta) JN_NEW(&model->arena, sys->damping, 9 * (size_t)model->pattern.blocks);
+	if (model->has_beta) JN_NEW(&model->arena, sys->damping_diagonal, 9 * (size_t)model->node_count);
 	if (model->has_beta && has_products(sys)) JN_NEW(&model->arena, sys->damping_x, sys->base.space->length);
 	switch_on_or_off(sys, 0);
 	return JN_OK;

@@ -18,6 +18,12 @@ void jn_damping_follow(JnModelSystem* sys, const JnState* s);
 /// D as 9 numbers a block; NULL when it does not act.
 const double* jn_damping_blocks(JnModelSystem* sys);
 
+/// Its diagonal blocks, 9 a node; NULL when it does not act.
+const double* jn_damping_diagonal(JnModelSystem* sys);
+
+/// What products in single precision need of D; NULL where it does not act, has no products or memory is short.
+const JnStored* jn_damping_single(JnModelSystem* sys);
+
 /// out += scale * D * in.
 void jn_damping_apply(const JnModelSystem* sys, double scale, const double* in, double* out);
 

@@ -99,13 +99,18 @@ static JnStatus list_elements(const JnGroup* group, JnArena* arena, JnCellList* 
 	return JN_OK;
 }
 
-// Products stand for matrices where the solver is content with them and no part of the model needs more. A kernel that
-// freezes is left out: D may be of an earlier step, and its product would be that of the present one.
+// Products stand for matrices where the solver is content with them and no part of the model needs more: bodies without
+// solid elements, whose blocks would be many. A kernel that freezes is left out: D may be of an earlier step, and its
+// product would be that of the present one.
 static bool can_be_matrix_free(const JnModelDef* def, const JnModel* model) {
 	const JnSolverType* solver = (const JnSolverType*)def->solver.row;
 	if (solver->takes_products == NULL || !solver->takes_products(def->solver.options)) return false;
+	const bool is_auto = solver == &jn_solver_auto; // stiff threads and sheets need better than diagonal blocks
 	for (int b = 0; b < model->body_count; ++b)
-		if (model->bodies[b].mass_form == 0 && model->bodies[b].mesh.shape != JN_POINT1) return false;
+		if ((is_auto && model->bodies[b].mesh.shape != JN_POINT1) ||
+			(model->bodies[b].mass_form == 0 && model->bodies[b].mesh.shape != JN_POINT1) ||
+			model->bodies[b].law->build == jn_solid_build)
+			return false;
 	for (int g = 0; g < model->group_count; ++g)
 		if (model->groups[g].kernel->product == NULL || model->groups[g].kernel->freeze != NULL) return false;
 	return def->wind == NULL || def->wind->tangent == 0;

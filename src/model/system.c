@@ -7,9 +7,11 @@
 
 #include "base/log.h"
 #include "base/space.h"
+#include "model/advance.h"
 #include "model/damping.h"
 #include "model/load.h"
 #include "model/repulsion.h"
+#include "model/stiffness.h"
 #include "model/stretch.h"
 #include "model/wind.h"
 
@@ -17,7 +19,7 @@ static JnModelSystem* of(JnSystem* sys) {
 	return (JnModelSystem*)sys;
 }
 
-static JnStatus update_internal(JnModelSystem* sys, const JnState* s) {
+JnStatus jn_model_internal(JnModelSystem* sys, const JnState* s) {
 	if (sys->internal_stamp == s->stamp) return JN_OK;
 	memset(sys->internal, 0, sys->base.space->length * sizeof *sys->internal);
 	jn_assembly_force(sys->assembly, s->x, sys->internal);
@@ -30,17 +32,17 @@ static JnStatus update_internal(JnModelSystem* sys, const JnState* s) {
 // Typical forces: the weight, or what acts inside, or the wind, or (at rest without weight) those of a strain of 1e-6.
 static double typical_force(JnModelSystem* sys) {
 	JnSpace* space = sys->base.space;
-	const double weight = sqrt(space->ops->dot(space, sys->external, sys->external));
 	const double inside = sqrt(space->ops->dot(space, sys->internal, sys->internal));
 	const double outside = sys->model->wind != NULL ? sys->model->wind->typical_force : 0;
-	return fmax(fmax(fmax(weight, inside), outside), 1e-6 / DBL_EPSILON * sys->base.force_floor);
+	return fmax(fmax(fmax(sys->weight, inside), outside), 1e-6 / DBL_EPSILON * sys->base.force_floor);
 }
 
 static JnStatus begin(JnSystem* base, const JnState* start) {
 	JnModelSystem* sys = of(base);
 	jn_damping_begin(sys, start);
-	if (base->force_scale == 0) JN_TRY(update_internal(sys, start));
-	if (sys->internal_stamp == start->stamp)
+	if (base->force_scale == 0) JN_TRY(jn_model_internal(sys, start));
+	const bool is_judged = sys->has_linearized || base->force_scale == 0; // explicit methods leave no residuals
+	if (is_judged && sys->internal_stamp == start->stamp)
 		base->force_scale = typical_force(sys); // else as before: no force for this alone
 	return JN_OK;
 }
@@ -65,7 +67,7 @@ static void hold(JnSystem* base, JnVec r) {
 static JnStatus force(JnSystem* base, const JnState* s, JnVec f) {
 	JnModelSystem* sys = of(base);
 	const JnModel* model = sys->model;
-	JN_TRY(update_internal(sys, s));
+	JN_TRY(jn_model_internal(sys, s));
 	JnTerm terms[2 + JN_LOAD_COUNT] = {{1, sys->internal}, {1, sys->external}};
 	int count = 2;
 	for (int i = 0; i < JN_LOAD_COUNT; ++i)
@@ -120,20 +122,18 @@ static JnStatus linearize_repulsion(JnModelSystem* sys, const double* x) {
 	if (!sys->model->is_matrix_free)
 		return jn_error(JN_BAD_INPUT, "repulsion: implicit methods need it as products; set solver.method: cg, and "
 									  "solver.matrix: auto");
-	JN_TRY(jn_repulsion_linearize(sys->model->repulsion, x));
-	jn_repulsion_add_diagonal(sys->model->repulsion, JN_EXACT, sys->stiffness);
-	return JN_OK;
+	return jn_repulsion_linearize(sys->model->repulsion, x);
 }
 
 static JnStatus linearize(JnSystem* base, const JnState* s) {
 	JnModelSystem* sys = of(base);
+	sys->has_linearized = true;
 	jn_damping_follow(sys, s);
 	if (sys->unsymmetric != NULL && jn_wind_linearize(sys->model->wind, s)) jn_model_matrix_expire(sys);
 	const bool is_constant = base->is_linear_in_step && sys->stiffness_stamp != 0;
 	if (sys->stiffness_stamp == s->stamp || is_constant) return JN_OK;
-	jn_assembly_tangent(sys->assembly, s->x, JN_EXACT, NULL, sys->stiffness);
 	if (sys->model->repulsion != NULL) JN_TRY(linearize_repulsion(sys, s->x));
-	memcpy(sys->linear_x, s->x, base->space->length * sizeof *sys->linear_x);
+	jn_stiffness_set(sys, s->x);
 	sys->stiffness_stamp = s->stamp;
 	++base->report->tangents;
 	jn_model_matrix_expire(sys);
@@ -157,17 +157,20 @@ static const JnSystemOps system_ops = {
 	.linearize = linearize,
 	.matrix = matrix,
 	.stretch = stretch,
+	.advance = jn_model_advance,
 };
 
 // What rounding of positions leaves in a force: stiffness times the spacing of doubles at the model's coordinates.
 static double rounding_force(JnModelSystem* sys) {
 	const JnModel* model = sys->model;
 	JnSpace* space = sys->base.space;
+	jn_stiffness_set(sys, model->rest);
+	const double* diagonal = jn_stiffness_diagonal(sys, JN_EXACT);
 	const double reach = space->ops->max(space, model->rest);
 	double sum = 0;
 	for (int node = 0; node < model->node_count; ++node)
 		for (int axis = 0; axis < 3; ++axis) {
-			const double k = sys->stiffness[9 * (size_t)model->pattern.column_start[node] + 4 * (size_t)axis];
+			const double k = diagonal[9 * (size_t)node + 4 * (size_t)axis];
 			sum += model->held[3 * node + axis] ? 0 : k * k;
 		}
 	return DBL_EPSILON * reach * sqrt(sum);
@@ -176,19 +179,17 @@ static double rounding_force(JnModelSystem* sys) {
 static JnStatus allocate(JnModelSystem* sys) {
 	JnModel* model = sys->model;
 	JnArena* arena = &model->arena;
-	const size_t n = 3 * (size_t)model->node_count, entries = 9 * (size_t)model->pattern.blocks;
+	const size_t n = 3 * (size_t)model->node_count;
 	JN_NEW(arena, sys->external, n);
 	JN_NEW(arena, sys->internal, n);
-	JN_NEW(arena, sys->linear_x, n);
 	JN_NEW(arena, sys->momenta, n);
-	JN_NEW(arena, sys->stiffness, entries);
-	JN_NEW(arena, sys->scratch, entries);
 	if (model->mass_is_diagonal) JN_NEW(arena, sys->inverse_mass, n);
 	for (int k = 0; k < 3 * model->node_count; ++k) {
-		if (sys->inverse_mass != NULL) sys->inverse_mass[k] = 1 / model->nodal_mass[k / 3];
+		if (sys->inverse_mass != NULL) sys->inverse_mass[k] = model->held[k] ? 0 : 1 / model->nodal_mass[k / 3];
 		sys->external[k] = model->nodal_mass[k / 3] * model->gravity[k % 3];
 		if (model->loads != NULL) sys->external[k] += model->loads[k];
 	}
+	sys->weight = sqrt(sys->base.space->ops->dot(sys->base.space, sys->external, sys->external));
 	sys->base.is_linear_in_step = model->wind == NULL && model->repulsion == NULL;
 	sys->base.depends_on_time = model->wind != NULL && jn_gusts_blow(&model->wind->gusts);
 	sys->base.has_potential = model->wind == NULL;
@@ -225,13 +226,12 @@ JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver) {
 	JN_TRY(jn_hold_create(model, &sys->hold));
 	JN_TRY(jn_damping_create(sys));
 	JN_TRY(allocate(sys));
+	JN_TRY(jn_stiffness_create(sys));
 	const JnSolverType* type = (const JnSolverType*)solver->row;
 	JN_TRY(type->create(solver->options, &model->pattern, model->held, model->threads, &sys->solver));
-	if (model->is_matrix_free)
-		type->attach(sys->solver, (JnOperator){jn_model_matrix_product, sys, &sys->base.force_floor});
+	if (type->attach != NULL) type->attach(sys->solver, jn_model_matrix_operator(sys));
 	JN_TRY(create_unsymmetric(sys));
 	jn_assembly_freeze(sys->assembly, model->rest);
-	jn_assembly_tangent(sys->assembly, model->rest, JN_EXACT, NULL, sys->stiffness);
 	sys->base.force_floor = rounding_force(sys);
 	return JN_OK;
 }
@@ -241,6 +241,7 @@ void jn_model_system_destroy(JnModel* model) {
 	if (sys == NULL) return;
 	if (sys->solver != NULL) sys->solver->type->destroy(sys->solver);
 	if (sys->unsymmetric != NULL) sys->unsymmetric->type->destroy(sys->unsymmetric);
+	jn_stiffness_destroy(sys);
 	jn_host_space_destroy(sys->base.space);
 	model->system = NULL;
 }

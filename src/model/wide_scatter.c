@@ -1,7 +1,7 @@
-// Adds lane by lane; exports jn_scatter_<width>. The number of nodes is a compile-time constant where elements are small.
+// Adds lane by lane; exports jn_scatters_<width>. The number of nodes is a compile-time constant where elements are small.
 #include "model/scatter.h"
 
-#include "math/wide.h"
+#include "math/wide_float.h"
 
 #define JOIN_NAMES(a, b) a##b
 #define JOIN(a, b) JOIN_NAMES(a, b)
@@ -125,10 +125,49 @@ INLINE void scatter_with(const JnGroup* group, int first, int last, const double
 	}
 }
 
-void JOIN(jn_scatter_, JN_WIDE)(const JnGroup* group, int first, int last, const double* buffer, double scale,
-								JnNodeRange range, double* f) {
+static void scatter_forces(const JnGroup* group, int first, int last, const double* buffer, double scale,
+						   JnNodeRange range, double* f) {
 	if (range.is_all)
 		scatter_with(group, first, last, buffer, scale, range, f, true);
 	else
 		scatter_with(group, first, last, buffer, scale, range, f, false);
 }
+
+// Node i of a pair of batches: three registers are turned into a row of four a lane. Lanes of padding add zeros.
+INLINE void add_rows(const float* element, const int* first, const int* second, float scale, JnNodeRange range,
+					 float* f, bool is_all) {
+	WideFloat row[4] = {{0}};
+	JN_UNROLL for (int a = 0; a < 3; ++a) row[a] = scale * wide_float_load(element + a * JN_WIDE_FLOATS);
+	wide_float_transpose(row);
+	JN_UNROLL for (int lane = 0; lane < JN_WIDE_FLOATS; ++lane) {
+		const int node = lane < JN_WIDE ? first[lane] : second[lane - JN_WIDE];
+		if (!is_all && (node < range.low || node >= range.high)) continue;
+		float* to = f + 4 * (ptrdiff_t)node;
+		four_floats_store(to, four_floats_load(to) + wide_float_quarter(row[lane % 4], lane / 4));
+	}
+}
+
+INLINE void add_all_rows(const JnGroup* group, int first, int last, const float* buffer, float scale, JnNodeRange range,
+						 float* f, bool is_all) {
+	const int nodes = group->kernel->nodes;
+	for (int batch = first; batch < last; batch += 2) {
+		const int* at = group->nodes + (ptrdiff_t)batch * nodes * JN_WIDE;
+		const int* second = batch + 1 < group->batches ? at + nodes * JN_WIDE : at;
+		for (int i = 0; i < nodes; ++i, buffer += 3 * JN_WIDE_FLOATS)
+			add_rows(buffer, at + i * JN_WIDE, second + i * JN_WIDE, scale, range, f, is_all);
+	}
+}
+
+static void scatter_single(const JnGroup* group, int first, int last, const float* buffer, float scale,
+						   JnNodeRange range, float* f) {
+	if (range.is_all)
+		add_all_rows(group, first, last, buffer, scale, range, f, true);
+	else
+		add_all_rows(group, first, last, buffer, scale, range, f, false);
+}
+
+JnScatterBlocks JOIN(jn_scatter_blocks_, JN_WIDE);
+JnScatterTriangles JOIN(jn_scatter_triangles_, JN_WIDE);
+
+const JnScatters JOIN(jn_scatters_, JN_WIDE) = {scatter_forces, scatter_single, JOIN(jn_scatter_blocks_, JN_WIDE),
+												JOIN(jn_scatter_triangles_, JN_WIDE)};

@@ -4,13 +4,6 @@
 
 enum { LINKS = 11 };
 
-static JnScatter* scatter_of(int width) {
-#if defined(__x86_64__)
-	if (width > 2) return width == 8 ? jn_scatter_8 : jn_scatter_4;
-#endif
-	return jn_scatter_2;
-}
-
 static JnGroup links_of(int width, JnArena* arena) {
 	JnConstraint elements[LINKS] = {0};
 	JnGroup group;
@@ -37,9 +30,9 @@ static void links_add_in_the_order_of_elements_whatever_the_range(void** unused)
 			for (int k = 0; k < 18; ++k) expected[9 * e + k] += -0.3 * buffer[(e / width * 18 + k) * width + e % width];
 		const JnNodeRange all = {.low = 0, .high = REALS / 3, .is_all = true}, low = {.low = 0, .high = 13},
 						  high = {.low = 13, .high = REALS / 3};
-		scatter_of(width)(&group, 0, group.batches, buffer, -0.3, all, whole);
-		scatter_of(width)(&group, 0, group.batches, buffer, -0.3, low, parts);
-		scatter_of(width)(&group, 0, group.batches, buffer, -0.3, high, parts);
+		jn_scatters(width)->forces(&group, 0, group.batches, buffer, -0.3, all, whole);
+		jn_scatters(width)->forces(&group, 0, group.batches, buffer, -0.3, low, parts);
+		jn_scatters(width)->forces(&group, 0, group.batches, buffer, -0.3, high, parts);
 		assert_memory_equal(whole, expected, sizeof expected);
 		assert_memory_equal(parts, expected, sizeof expected);
 		jn_arena_free(&arena);

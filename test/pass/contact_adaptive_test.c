@@ -7,7 +7,7 @@ enum { MOST_STEPS = 4000 };
 
 static const char scene[] =
 	"duration: 0.5 s\nintegrator: {method: %s}\n"
-	"newton: {reuse: never, guess: zero}\nstep: %s\n"
+	"newton: {reuse: never, guess: zero}\nsolver: {method: direct}\nstep: %s\n"
 	"contact: {prediction: %s}\n"
 	"obstacles: [{name: floor, shape: {type: plane}}]\n"
 	"bodies:\n"
