@@ -1,16 +1,18 @@
 // run.h5: everything of a run in one file.
 //
 //   /mesh/nodes [n,3]            rest positions [m]        /frames/00000000/position [n,3]  [m]
-//   /mesh/<body>/cells [c,k]     global node numbers       /frames/00000000/velocity [n,3]  [m/s]
+//   /mesh/<body>/...             see body.c                /frames/00000000/velocity [n,3]  [m/s]
 //   /mesh/<body>/surface/...     see surface.c             /frames/00000000/surface [p,3]   [m], if one is embedded
 //   /topology/cells, body        all bodies, for XDMF      /series/<column> [steps]         one value a step
 //   /topology/surface, ..._body  their triangles           attributes of /: who, where, when, outcome
 //   /obstacles/<name>/..., /topology/obstacle...: see obstacles.c, if there are any
+//   /gravity [3]                 [m/s^2]
 //   /scene                       the scene file's text     /frames/00000000/<field> [n,3] or [n], its unit an attribute
 #include <stdlib.h>
 
 #include "base/log.h"
 #include "base/timer.h"
+#include "record/body.h"
 #include "record/h5_file.h"
 #include "record/host.h"
 #include "record/obstacles.h"
@@ -33,22 +35,6 @@ typedef struct Hdf5 {
 	double flushed; // clock at the last flush of the series [s]
 } Hdf5;
 
-static JnStatus write_bodies(JnH5File* file, const JnRecordInfo* info) {
-	for (int i = 0; i < info->body_count; i++) {
-		const JnRecordBody* body = &info->bodies[i];
-		const JnShapeInfo* shape = &jn_shape_info[body->shape];
-		const hsize_t dims[2] = {(hsize_t)body->cell_count, (hsize_t)shape->nodes};
-		char name[512];
-		snprintf(name, sizeof name, "/mesh/%s/cells", body->name);
-		JN_TRY(jn_h5_array(file, name, H5T_STD_I32LE, H5T_NATIVE_INT, 2, dims, body->cells));
-		JN_TRY(jn_h5_attribute_text(file, name, "shape", shape->name));
-		JN_TRY(jn_h5_attribute_integer(file, name, "vtk_type", shape->vtk_type));
-		JN_TRY(jn_h5_attribute_integer(file, name, "first_node", body->first_node));
-		JN_TRY(jn_h5_attribute_integer(file, name, "node_count", body->node_count));
-	}
-	return JN_OK;
-}
-
 // What XDMF shows: the cells of all bodies in one array, and the number of its body for each.
 static JnStatus write_topology(JnH5File* file, const JnRecordInfo* info) {
 	JnTopology topology;
@@ -68,7 +54,7 @@ static JnStatus write_mesh(JnH5File* file, const JnRecordInfo* info) {
 	const hsize_t dims[2] = {(hsize_t)info->node_count, 3};
 	JN_TRY(jn_h5_array(file, "/mesh/nodes", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, info->nodes));
 	JN_TRY(jn_h5_attribute_text(file, "/mesh/nodes", "unit", "m"));
-	JN_TRY(write_bodies(file, info));
+	JN_TRY(jn_record_bodies_write(file, info));
 	JN_TRY(write_topology(file, info));
 	JN_TRY(jn_record_surface_write(file, info));
 	return jn_record_obstacles_write(file, info);
@@ -95,6 +81,9 @@ static JnStatus write_facts(JnH5File* file, const JnRecordInfo* info) {
 	JN_TRY(jn_h5_attribute_integer(file, "/", "threads", info->threads));
 	JN_TRY(jn_h5_attribute_integer(file, "/", "simd_width", info->simd_width));
 	JN_TRY(jn_h5_attribute_real(file, "/", "total_mass", info->total_mass));
+	const hsize_t axes = 3;
+	JN_TRY(jn_h5_array(file, "/gravity", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &axes, info->gravity));
+	JN_TRY(jn_h5_attribute_text(file, "/gravity", "unit", "m/s^2"));
 	return jn_h5_text(file, "/scene", info->scene_text);
 }
 

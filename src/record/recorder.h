@@ -7,6 +7,7 @@
 #include "jounce/scene.h"
 #include "mesh/embed.h"
 #include "mesh/mesh.h"
+#include "mesh/thread.h"
 
 /// One column of the per-step series.
 typedef struct JnColumn {
@@ -32,6 +33,8 @@ typedef struct JnRecordBody {
 	int triangle_count;
 	const int* triangles; ///< the surface: with global node numbers, or those of the embedded surface's vertices
 	const JnEmbedding* embedding; ///< the surface that the cells carry along; NULL: it is made of faces of cells
+	const JnThread* thread;       ///< the chain of frames that its nodes are; NULL: none
+	const double* volumes;        ///< of a body of points: node_count of them [m^3]; NULL: none
 } JnRecordBody;
 
 /// A rigid thing that never moves, as it looks.
@@ -59,6 +62,7 @@ typedef struct JnRecordInfo {
 	const JnField* fields; ///< NULL: none
 	bool wants_plots;      ///< draw plots/ at the end
 	double total_mass;     ///< [kg]
+	double gravity[3];     ///< [m/s^2]; what looks at a run takes its opposite for up
 	int threads, simd_width;
 	const char* blas; ///< such as "OpenBLAS 0.3.21 SkylakeX"
 } JnRecordInfo;
@@ -82,6 +86,7 @@ typedef struct JnRecordEnd {
 	double setup_seconds;
 	double seconds_predict, seconds_detect, seconds_factor, seconds_qp; ///< parts of wall_seconds, as in JnReport
 	long steps, frames, rejected, newton, factorizations, solves, iterations, forces, tangents, indefinite, minimized;
+	long served[JN_WAY_COUNT], changes;        ///< solves by their way, and changes of it
 	double t, t_end;                           ///< reached and wanted [s]
 	double specific_error, specific_error_max; ///< |e_tot(t) - e_tot(0)|, at the end and largest [J/kg]
 	const JnPaceReport* pace;                  ///< NULL: the run did not wait for the clock

@@ -117,6 +117,14 @@ static void print_counts(JnTextFile* file, const JnRecordInfo* info, const JnRec
 	}
 }
 
+// How linear systems were solved.
+static void print_ways(JnTextFile* file, const JnRecordEnd* end) {
+	jn_text_print(file, "\t\"solver\": {");
+	for (int way = 0; way < JN_WAY_COUNT; way++)
+		jn_text_print(file, "\"%s\": %ld, ", jn_way_name((JnWay)way), end->served[way]);
+	jn_text_print(file, "\"changes\": %ld},\n", end->changes);
+}
+
 static void print_percentiles(JnTextFile* file, const char* name, const double values[JN_PACE_SHARES], double worst) {
 	static const char* const shares[JN_PACE_SHARES] = {"p50", "p95", "p99", "p99_9"};
 	jn_text_print(file, "\t\t\"%s\": {", name);
@@ -187,6 +195,7 @@ static JnStatus close_summary(JnRecorder* recorder, const JnRecordEnd* end) {
 	print_texts(&file, summary, end);
 	print_reals(&file, summary, end);
 	print_counts(&file, recorder->info, end);
+	print_ways(&file, end);
 	if (end->pace != NULL) print_pace(&file, end->pace);
 	print_host(&file);
 	jn_text_print(&file, "}\n");

@@ -17,6 +17,8 @@ static void count_step(JnRun* run) {
 	run->end.factorizations += report->factorizations;
 	run->end.solves += report->solves;
 	run->end.iterations += report->iterations;
+	for (int way = 0; way < JN_WAY_COUNT; ++way) run->end.served[way] += report->served[way];
+	run->end.changes += report->changes;
 	run->end.forces += report->forces;
 	run->end.tangents += report->tangents;
 	run->end.indefinite += report->indefinite;
@@ -139,6 +141,10 @@ static void fill_result(JnRun* run, JnRunResult* result) {
 	result->rejected = run->end.rejected;
 	result->newton = run->end.newton;
 	result->factorizations = run->end.factorizations;
+	result->solves = run->end.solves;
+	result->iterations = run->end.iterations;
+	result->changes = run->end.changes;
+	memcpy(result->served, run->end.served, sizeof result->served);
 	result->t = run->end.t;
 	result->wall_seconds = run->end.wall_seconds;
 	result->specific_error = run->end.specific_error;

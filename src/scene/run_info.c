@@ -164,7 +164,9 @@ static JnStatus list_bodies(JnRun* run, const JnModel* model) {
 								   .first_node = body->first_node,
 								   .node_count = body->mesh.node_count,
 								   .cell_count = body->mesh.cell_count,
-								   .cells = body->cells};
+								   .cells = body->cells,
+								   .thread = body->mesh.thread,
+								   .volumes = body->mesh.volumes};
 		JN_TRY(describe_surface(body, &run->arena, &bodies[b]));
 	}
 	run->info.body_count = model->body_count;
@@ -213,6 +215,7 @@ static JnStatus annotate_text(JnRun* run) {
 static JnStatus describe_model(JnRun* run, const JnModel* model) {
 	run->info.node_count = model->node_count;
 	run->info.nodes = model->rest;
+	memcpy(run->info.gravity, model->gravity, sizeof run->info.gravity);
 	JN_TRY(list_bodies(run, model));
 	JN_TRY(list_obstacles(run, model));
 	return find_probes(run, model);

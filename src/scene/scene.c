@@ -114,7 +114,7 @@ const JnKey jn_scene_keys[] = {
 	{.name = "solver",
 	 .kind = JN_VARIANT,
 	 .field = offsetof(JnSceneDef, sim.model.solver),
-	 .text = "direct",
+	 .text = "auto",
 	 .rows = &jn_solver_list,
 	 .tag = "method",
 	 .meaning = "the linear solver"},
@@ -194,8 +194,10 @@ static const char* stem(const char* path, JnArena* arena) {
 	return name;
 }
 
-static JnStatus load(JnScene* scene, const char* path, int set_count, const char* const sets[]) {
-	JN_TRY(jn_document_read(path, &scene->arena, &scene->document));
+// `text` NULL: it is in the file.
+static JnStatus load(JnScene* scene, const char* path, const char* text, int set_count, const char* const sets[]) {
+	JN_TRY(text != NULL ? jn_document_parse(path, text, &scene->arena, &scene->document)
+						: jn_document_read(path, &scene->arena, &scene->document));
 	for (int i = 0; i < set_count; ++i) JN_TRY(jn_document_set(&scene->document, sets[i]));
 	JN_NEW(&scene->arena, scene->sets, set_count + 1);
 	for (int i = 0; i < set_count; ++i) {
@@ -214,16 +216,20 @@ static JnStatus load(JnScene* scene, const char* path, int set_count, const char
 	return status;
 }
 
-JnStatus jn_scene_load(const char* path, int set_count, const char* const sets[], JnScene** out) {
+JnStatus jn_scene_parse(const char* path, const char* text, int set_count, const char* const sets[], JnScene** out) {
 	*out = NULL;
 	JnScene* scene = calloc(1, sizeof *scene);
 	if (scene == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: scene");
-	const JnStatus status = load(scene, path, set_count, sets);
+	const JnStatus status = load(scene, path, text, set_count, sets);
 	if (status == JN_OK)
 		*out = scene;
 	else
 		jn_scene_destroy(scene);
 	return status;
+}
+
+JnStatus jn_scene_load(const char* path, int set_count, const char* const sets[], JnScene** scene) {
+	return jn_scene_parse(path, NULL, set_count, sets, scene);
 }
 
 JnStatus jn_scene_build(const JnScene* scene, int threads, JnSim** sim) {

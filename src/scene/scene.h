@@ -14,4 +14,8 @@ struct JnScene {
 	JnSceneDef def;
 };
 
+/// jn_scene_load for text that is there already, such as that of a recording; `path` names it, and is where relative paths
+/// in it start from. NULL: read the file.
+JnStatus jn_scene_parse(const char* path, const char* text, int set_count, const char* const sets[], JnScene** scene);
+
 #endif

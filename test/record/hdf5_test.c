@@ -135,10 +135,36 @@ static void mesh_reads_back_with_its_bodies(void** state) {
 	assert_memory_equal(cells, sample_hexahedron, sizeof cells);
 	read_numbers(file, "/mesh/wedge: \xC3\xA9/cells", H5T_NATIVE_INT, 4, tetrahedron);
 	assert_memory_equal(tetrahedron, sample_tetrahedron, sizeof tetrahedron);
+	double gravity[3];
+	read_numbers(file, "/gravity", H5T_NATIVE_DOUBLE, 3, gravity);
+	assert_memory_equal(gravity, sample->info.gravity, sizeof gravity);
 	check_text(file, "/mesh/beam/cells", "shape", "hex8");
 	assert_int_equal(read_count(file, "/mesh/beam/cells", "vtk_type"), 12);
 	assert_int_equal(read_count(file, "/mesh/wedge: \xC3\xA9/cells", "first_node"), 8);
 	assert_int_equal(read_count(file, "/mesh/wedge: \xC3\xA9/cells", "node_count"), 4);
+	H5Fclose(file);
+}
+
+static void points_have_volumes_and_threads_an_axis(void** state) {
+	Sample* sample = *state;
+	static const double volumes[8] = {1, 2, 3, 4, 5, 6, 7, 1.0 / 3};
+	const JnThread thread = {.frame_count = 4, .is_closed = true, .radius = 1.0 / 7, .axis = {0.5, 0.25, 0.25}};
+	sample->bodies[0].volumes = volumes;
+	sample->bodies[1].thread = &thread;
+	sample_record(sample);
+	const hid_t file = open_file(sample);
+	const char* const name = "/mesh/wedge: \xC3\xA9/axis";
+	double read[8], radius = 0;
+	read_numbers(file, "/mesh/beam/volumes", H5T_NATIVE_DOUBLE, 8, read);
+	assert_memory_equal(read, volumes, sizeof volumes);
+	check_text(file, "/mesh/beam/volumes", "unit", "m^3");
+	read_numbers(file, name, H5T_NATIVE_DOUBLE, 3, read);
+	assert_memory_equal(read, thread.axis, sizeof thread.axis);
+	read_attribute(file, name, "radius", H5T_NATIVE_DOUBLE, &radius);
+	assert_memory_equal(&radius, &thread.radius, sizeof radius);
+	assert_int_equal(read_count(file, name, "is_closed"), 1);
+	assert_int_equal(H5Lexists(file, "/mesh/beam/axis", H5P_DEFAULT), 0);
+	assert_int_equal(H5Lexists(file, "/mesh/wedge: \xC3\xA9/volumes", H5P_DEFAULT), 0);
 	H5Fclose(file);
 }
 
@@ -413,6 +439,7 @@ int main(void) {
 		TEST(long_series_crosses_buffers_and_chunks),
 		TEST(counts_are_stored_as_integers),
 		TEST(mesh_reads_back_with_its_bodies),
+		TEST(points_have_volumes_and_threads_an_axis),
 		TEST(mixed_topology_leads_each_cell_with_its_number),
 		TEST(file_tells_its_origin_and_outcome),
 		TEST(killed_run_leaves_its_frames_readable),

@@ -90,9 +90,10 @@ static inline int sample_setup(void** state) {
 		sample.nodes[3 * i + 1] = (i >> 1 & 1) / 3.0;
 		sample.nodes[3 * i + 2] = (i >> 2) * 1e-3;
 	}
-	sample.bodies[0] = (JnRecordBody){"beam", JN_HEX8, 0, 8, 1, sample_hexahedron, 2, sample_beam_triangles, NULL};
-	sample.bodies[1] =
-		(JnRecordBody){"wedge: \xC3\xA9", JN_TET4, 8, 4, 1, sample_tetrahedron, 1, sample_wedge_triangles, NULL};
+	sample.bodies[0] =
+		(JnRecordBody){"beam", JN_HEX8, 0, 8, 1, sample_hexahedron, 2, sample_beam_triangles, NULL, NULL, NULL};
+	sample.bodies[1] = (JnRecordBody){"wedge: \xC3\xA9",      JN_TET4, 8,    4,   1, sample_tetrahedron, 1,
+									  sample_wedge_triangles, NULL,    NULL, NULL};
 	sample.info = (JnRecordInfo){
 		.directory = sample.directory,
 		.scene_name = "it's a \"beam\"",
@@ -107,6 +108,7 @@ static inline int sample_setup(void** state) {
 		.columns = sample_columns,
 		.wants_plots = true,
 		.total_mass = 2.5,
+		.gravity = {0, -9.81, 1.0 / 3},
 		.threads = 2,
 		.simd_width = 4,
 		.blas = "OpenBLAS 0.3.21",

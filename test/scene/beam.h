@@ -31,15 +31,15 @@ typedef struct BeamFacts {
 	double displacement;                 ///< y of the middle [m]
 } BeamFacts;
 
-/// `tolerance`: of Newton's method; NULL: the scene's.
+/// Factors, whose directions land far below the tolerance. `tolerance`: of Newton's method; NULL: the scene's.
 static inline void beam_open(Beam* beam, const char* method, const char* law, double dt, const char* tolerance) {
 	char words[4][96];
-	const char* sets[4] = {words[0], words[1], words[2], words[3]};
+	const char* sets[5] = {"solver.method=direct", words[0], words[1], words[2], words[3]};
 	snprintf(words[0], sizeof words[0], "integrator.method=%s", method);
 	snprintf(words[1], sizeof words[1], "bodies[0].material.law=%s", law);
 	snprintf(words[2], sizeof words[2], "step.dt=%.17g", dt);
 	snprintf(words[3], sizeof words[3], "newton.tolerance=%s", tolerance != NULL ? tolerance : "");
-	assert_int_equal(jn_scene_load(beam_scene, tolerance != NULL ? 4 : 3, sets, &beam->scene), JN_OK);
+	assert_int_equal(jn_scene_load(beam_scene, tolerance != NULL ? 5 : 4, sets, &beam->scene), JN_OK);
 	assert_int_equal(jn_scene_build(beam->scene, 1, &beam->sim), JN_OK);
 	beam->mid = jn_model_nearest(jn_sim_model(beam->sim), (const double[3]){0.125, 0.125, 1.0});
 }

@@ -72,6 +72,8 @@ static void open_collision(Run* run, const char* method, const char* mass, const
 		run, 1,
 		"duration: 1 s\ngravity: [0, -9.81, 0]\nintegrator: {method: %s}\n"
 		"newton: {tolerance: 1e-9, mode: %s, reuse: never, guess: zero}\nstep: {dt: 1 ms, cuts: 0}\n"
+		"solver: {method: direct}\n" // iterations for one body would be iterations for all
+
 		"bodies:\n"
 		"  - {name: a, shape: {type: box, origin: [0, 1, 0], size: [0.2, 0.2, 0.2], cells: [2, 2, 2]}, %s,\n"
 		"     mass: %s, velocity: [1, 0, 0]}\n"

@@ -148,7 +148,7 @@ static inline JnStatus order_load_create(OrderMass mass, OrderSystem* out) {
 
 // ---- the solid: 2 x 2 x 4 hexahedra that bend and twist under gravity, clamped below; its face above free or driven
 
-static const char order_solid_scene[] = "duration: 1 s\n"
+static const char order_solid_scene[] = "duration: 1 s\nsolver: {method: direct}\n"
 										"gravity: [1, -9.81, 0.5]\n"
 										"bodies:\n"
 										"  - name: box\n"

@@ -19,9 +19,9 @@ static const int axes[3][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}};
 
 static void place(const JnBlock* block, const int at[3], double X[3]) {
 	const SheetDef* def = block->options;
-	const double size[3] = {def->size[0], def->size[1], def->thickness};
+	const double size[3] = {def->thickness, def->size[0], def->size[1]};
 	for (int k = 0; k < 3; ++k) {
-		const int axis = axes[def->plane][k];
+		const int axis = axes[def->plane][k > 0 ? k - 1 : 2];
 		X[axis] = def->origin[axis] + size[k] * at[k] / block->cells[k];
 	}
 }
@@ -60,12 +60,13 @@ static JnStatus turn(const SheetDef* def, const char* what, JnMesh* mesh) {
 	return jn_placement_apply(&placement, what, mesh->node_count, mesh->nodes);
 }
 
+// Nodes across follow each other, so that threads, which own ranges of nodes, share no more than a row of elements.
 static JnStatus generate(const void* options, const char* what, JnArena* arena, JnMesh* mesh) {
 	const SheetDef* def = options;
-	const JnBlock block = {.cells = {def->cells[0], def->cells[1], def->layers},
+	const JnBlock block = {.cells = {def->layers, def->cells[0], def->cells[1]},
 						   .place = place,
 						   .options = def,
-						   .sets = {"left", "right", "lower", "upper"}};
+						   .sets = {NULL, NULL, "left", "right", "lower", "upper"}};
 	JN_TRY(jn_blocks_join(1, &block, (JnShape)def->element, what, arena, mesh));
 	JN_TRY(add_corners(arena, mesh));
 	return turn(def, what, mesh);
