@@ -11,9 +11,13 @@ enum { EXIT_DONE = 0, EXIT_RUN_FAILED = 1, EXIT_BAD_INPUT = 2, EXIT_FILE_FAILED 
 int app_run(int count, char** arguments);
 int app_check(int count, char** arguments);
 int app_compare(int count, char** arguments);
+int app_export(int count, char** arguments);
 int app_score(int count, char** arguments);
 int app_reproduce(int count, char** arguments);
 int app_mesh(int count, char** arguments);
+int app_view(int count, char** arguments);
+int app_render(int count, char** arguments);
+int app_report(int count, char** arguments);
 int app_list(int count, char** arguments);
 int app_describe(int count, char** arguments);
 

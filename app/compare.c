@@ -10,6 +10,7 @@
 #include "compare_files.h"
 #include "compare_jobs.h"
 #include "compare_plots.h"
+#include "compare_report.h"
 #include "compare_tables.h"
 
 static const char help[] =
@@ -24,9 +25,10 @@ static const char help[] =
 	"  --jobs N               runs at a time; default: as many as keep the processors busy\n"
 	"  --threads N            of each run; default 1\n"
 	"  -q, --quiet            no progress, no table\n\n"
-	"Writes comparison.csv, comparison.md, comparison.txt, plots/ and a folder for each run in runs/. The runs draw "
-	"no\n"
-	"plots of their own unless asked by --set record.plots=yes. Ctrl-C finishes the steps in progress and stops; the "
+	"Writes comparison.csv, comparison.md, comparison.txt, plots/, report.html and a folder for each run in runs/. "
+	"The\n"
+	"runs draw no plots of their own unless asked by --set record.plots=yes. Ctrl-C finishes the steps in progress and "
+	"stops; the "
 	"same\n"
 	"command goes on from there, for runs that are done and whose settings are the same are kept.\n\n"
 	"exit status: 0 all done, or stopped by Ctrl-C; 1 a run failed, the table says which; 2 bad input; 3 files";
@@ -40,7 +42,7 @@ static void print_start(const CompareOptions* options, const ComparePlan* plan, 
 	fflush(stdout);
 }
 
-static void print_end(const CompareJobs* jobs, const CompareResults* results, int plots) {
+static void print_end(const CompareJobs* jobs, const CompareResults* results, int plots, bool has_page) {
 	const char* directory = results->plan->directory;
 	putchar('\n');
 	compare_table_print(results, stdout);
@@ -50,16 +52,18 @@ static void print_end(const CompareJobs* jobs, const CompareResults* results, in
 			   results->plan->run_count);
 	printf("\nwrote %s: comparison.txt, comparison.csv, comparison.md", directory);
 	if (plots > 0) printf(", plots/ (%d picture%s)", plots, plots == 1 ? "" : "s");
-	puts(", runs/");
+	puts(has_page ? ", report.html, runs/" : ", runs/");
 }
 
 static JnStatus report(const CompareOptions* options, CompareJobs* jobs) {
 	int plots = 0;
+	bool has_page = false;
 	CompareResults results;
 	JnStatus status = compare_results_read(jobs, &results);
 	if (status == JN_OK) status = compare_tables_write(&results);
 	if (status == JN_OK) status = compare_plots_draw(&results, &plots);
-	if (status == JN_OK && !options->is_quiet) print_end(jobs, &results, plots);
+	if (status == JN_OK) status = compare_report_write(results.plan->scene_name, jobs, &has_page);
+	if (status == JN_OK && !options->is_quiet) print_end(jobs, &results, plots, has_page);
 	compare_results_free(&results);
 	fflush(stdout);
 	clearerr(stdout); // what counts is on disk; a table that nobody reads is no failure

@@ -1,5 +1,5 @@
 /// @file compare_process.h
-/// Processes that work for a comparison.
+/// Processes that work for a comparison or a film.
 #ifndef JN_APP_COMPARE_PROCESS_H
 #define JN_APP_COMPARE_PROCESS_H
 
@@ -10,6 +10,9 @@
 /// words into the file `log` there, which is emptied. The process has a group of its own, so that Ctrl-C reaches it only
 /// through us, and gets SIGINT when this process dies. Returns its id, or -1 with errno.
 pid_t compare_process_start(const char* program, const char* const arguments[], const char* folder, const char* log);
+
+/// The same, here, with a pipe to its standard input, which the caller closes.
+pid_t compare_process_feed(const char* program, const char* const arguments[], const char* log, int* input);
 
 /// Exit status of an ended process; 128 + the signal that ended it.
 int compare_process_status(int wait_status);

@@ -18,9 +18,13 @@ typedef struct Command {
 static const Command commands[] = {
 	{"run", app_run, "simulate a scene and record it"},
 	{"compare", app_compare, "run a scene in many variants and compare errors, costs and energies"},
+	{"export", app_export, "write a recording for Blender, ParaView, browsers and other programs"},
 	{"score", app_score, "find the largest stable step of integrators, over the time of a step"},
 	{"reproduce", app_reproduce, "make figures and tables of the papers again"},
 	{"mesh", app_mesh, "read, check, fill and write a mesh"},
+	{"view", app_view, "show recordings in the browser"},
+	{"render", app_render, "draw pictures and films of recordings, without a display"},
+	{"report", app_report, "write one page about runs: pictures, curves, statistics"},
 	{"check", app_check, "read and validate a scene, run nothing"},
 	{"list", app_list, "show what there is: integrators, materials, elements and more"},
 	{"describe", app_describe, "explain the keys of scene files"},

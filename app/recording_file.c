@@ -31,6 +31,37 @@ JnStatus recording_file_attribute(hid_t file, const char* object, const char* na
 	return outcome < 0 ? JN_IO_FAILED : JN_OK;
 }
 
+// Texts have variable length: HDF5 makes room for them.
+static herr_t read_text(hid_t object, bool is_attribute, hid_t type, char** text) {
+	*text = NULL;
+	if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) <= 0) return -1;
+	return is_attribute ? H5Aread(object, type, text) : H5Dread(object, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text);
+}
+
+JnStatus recording_file_text(hid_t file, const char* object, const char* attribute, JnArena* arena, char** text) {
+	char* read = NULL;
+	const bool is_attribute = attribute != NULL;
+	const hid_t source = is_attribute ? H5Aopen_by_name(file, object, attribute, H5P_DEFAULT, H5P_DEFAULT)
+									  : H5Dopen2(file, object, H5P_DEFAULT);
+	if (source < 0) return JN_IO_FAILED;
+	const hid_t type = is_attribute ? H5Aget_type(source) : H5Dget_type(source);
+	const herr_t outcome = read_text(source, is_attribute, type, &read);
+	H5Tclose(type);
+	is_attribute ? H5Aclose(source) : H5Dclose(source);
+	if (outcome < 0 || read == NULL) return JN_IO_FAILED;
+	*text = jn_arena_text(arena, read);
+	H5free_memory(read);
+	return *text != NULL ? JN_OK : JN_OUT_OF_MEMORY;
+}
+
+JnStatus recording_file_visit(hid_t file, const char* group, H5L_iterate_t visit, void* user) {
+	const hid_t id = H5Gopen2(file, group, H5P_DEFAULT);
+	if (id < 0) return JN_IO_FAILED;
+	const herr_t outcome = H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, NULL, visit, user);
+	H5Gclose(id);
+	return outcome < 0 ? JN_IO_FAILED : JN_OK;
+}
+
 hssize_t recording_file_measure(hid_t file, const char* name) {
 	const hid_t dataset = H5Dopen2(file, name, H5P_DEFAULT);
 	if (dataset < 0) return -1;

@@ -5,7 +5,7 @@
 
 #include <hdf5.h>
 
-#include "jounce/base.h"
+#include "base/arena.h"
 
 /// Takes from an open file what it needs; JN_IO_FAILED, without a message, when something is not there.
 typedef JnStatus RecordingRead(hid_t file, void* user);
@@ -19,6 +19,12 @@ void recording_file_close(hid_t* file);
 
 /// Read one attribute of an object.
 JnStatus recording_file_attribute(hid_t file, const char* object, const char* name, hid_t type, void* value);
+
+/// A text attribute of an object, or a scalar text dataset (`attribute` NULL), copied into the arena.
+JnStatus recording_file_text(hid_t file, const char* object, const char* attribute, JnArena* arena, char** text);
+
+/// Let `visit` meet what is in a group, by name. JN_IO_FAILED when there is no such group, or `visit` returns below 0.
+JnStatus recording_file_visit(hid_t file, const char* group, H5L_iterate_t visit, void* user);
 
 /// Entries of a dataset; -1 when there is none.
 hssize_t recording_file_measure(hid_t file, const char* name);

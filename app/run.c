@@ -104,6 +104,20 @@ static void print_pace(const JnPaceReport* pace) {
 		   pace->stepping_seconds, pace->waiting_seconds, pace->recording_seconds);
 }
 
+// Which solver served, and how often.
+static void print_ways(const JnRunResult* r) {
+	long iterated = 0;
+	if (r->solves == 0) return;
+	printf("%ld linear solves:", r->solves);
+	for (int way = 0; way < JN_WAY_COUNT; ++way) {
+		if (r->served[way] == 0) continue;
+		printf(" %ld %s%s,", r->served[way], way == JN_WAY_DIRECT ? "" : "cg ", jn_way_name((JnWay)way));
+		if (way != JN_WAY_DIRECT) iterated += r->served[way];
+	}
+	if (iterated > 0) printf(" %.3g iterations each,", (double)r->iterations / (double)iterated);
+	printf(" %ld changes\n", r->changes);
+}
+
 static void print_summary(const Display* display, const JnSceneDef* def, const JnRunResult* r, const char* directory) {
 	const double steps = r->steps > 0 ? (double)r->steps : 1;
 	if (display->is_terminal) fputs("\r\033[K", stdout);
@@ -112,6 +126,7 @@ static void print_summary(const Display* display, const JnSceneDef* def, const J
 	if (r->t > 0) printf(" (%.3g s per simulated s)", r->wall_seconds / r->t);
 	printf("\n%.2f Newton iterations a step, %ld factorisations, %ld rejected attempts\n", (double)r->newton / steps,
 		   r->factorizations, r->rejected);
+	print_ways(r);
 	printf("energy error |e(t) - e(0)|: %.6g J/kg\n", r->specific_error);
 	if (r->pace.speed > 0) print_pace(&r->pace);
 	printf("wrote %s: run.h5 (%ld frame%s), run.xdmf, surface.xdmf, series.csv, summary.json%s\n", directory, r->frames,

@@ -44,9 +44,14 @@ endif()
 
 file(GLOB JN_COMMAND_SOURCES CONFIGURE_DEPENDS app/*.c app/*/*.c)
 if(JN_COMMAND_SOURCES)
+	# The command alone: `jounce view` serves by libmicrohttpd, `jounce export` writes glTF by jansson.
+	jounce_find(microhttpd microhttpd.h libmicrohttpd-dev LIBRARIES microhttpd)
+	jounce_find(jansson jansson.h libjansson-dev LIBRARIES jansson)
 	add_executable(jounce_command ${JN_COMMAND_SOURCES})
 	set_target_properties(jounce_command PROPERTIES OUTPUT_NAME jounce INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 	target_include_directories(jounce_command PRIVATE src app)
 
-	target_link_libraries(jounce_command PRIVATE jounce jounce_flags ${JN_DEPENDENCIES} OpenMP::OpenMP_C m)
+	target_link_libraries(jounce_command PRIVATE jounce jounce_flags ${JN_DEPENDENCIES} jounce::microhttpd
+		jounce::jansson OpenMP::OpenMP_C m)
+	include(jouncePage)
 endif()

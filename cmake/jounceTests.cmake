@@ -51,9 +51,41 @@ else()
 	message(STATUS "without Ipopt: its test of contact solvers is skipped (Debian: apt-get install coinor-libipopt-dev)")
 endif()
 
+# Without the viewer's page there is nothing to serve.
+if(TARGET app_view)
+	set_tests_properties(app_view PROPERTIES SKIP_RETURN_CODE 77)
+	if(JN_HAS_PAGE)
+		target_compile_definitions(app_view PRIVATE JN_HAS_PAGE)
+	endif()
+endif()
+
+# The page in headless Chromium: what web/test says of it.
+find_program(JN_CHROMIUM NAMES chromium chromium-browser google-chrome)
+mark_as_advanced(JN_CHROMIUM)
+if(JN_HAS_PAGE AND JN_CHROMIUM AND NOT JN_SANITIZE)
+	set(playwright ${CMAKE_CURRENT_SOURCE_DIR}/web/node_modules/@playwright/test/cli.js)
+	add_test(NAME page COMMAND ${JN_NODE} ${playwright} test WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/web)
+	set_tests_properties(page PROPERTIES TIMEOUT 600 ENVIRONMENT
+		"JOUNCE=$<TARGET_FILE:jounce_command>;CHROMIUM=${JN_CHROMIUM};JOUNCE_TEST_OUT=${CMAKE_CURRENT_BINARY_DIR}/page_test")
+else()
+	message(STATUS "without the tests of the viewer's page: they need the page and Chromium (Debian: apt-get install chromium)")
+endif()
+
 # What is built against an installed library has no sanitizer to link.
 if(TARGET jounce_command AND NOT JN_SANITIZE)
 	add_test(NAME examples COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/examples/build_and_run
 		${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/examples_test)
 	set_tests_properties(examples PROPERTIES TIMEOUT 300)
+endif()
+
+# Khronos' validator of glTF is a package of npm.
+find_program(JN_NODE NAMES node nodejs)
+find_program(JN_NPM NAMES npm)
+mark_as_advanced(JN_NODE JN_NPM)
+if(JN_NODE AND JN_NPM AND TARGET jounce_command)
+	add_test(NAME app_gltf COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/app/gltf/validate $<TARGET_FILE:jounce_command>
+		${CMAKE_CURRENT_BINARY_DIR}/gltf_test)
+	set_tests_properties(app_gltf PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+else()
+	message(STATUS "without node and npm: glTF files are not validated (Debian: apt-get install nodejs npm)")
 endif()

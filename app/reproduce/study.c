@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "compare_files.h"
 #include "compare_recording.h"
+#include "compare_report.h"
 
 enum { MOST_CASES = 512, MOST_SETS = 64 };
 
@@ -120,6 +121,7 @@ static void tell_end(const StudyRun* run) {
 
 static JnStatus report(StudyRun* run) {
 	Page page;
+	bool has_report = false;
 	JN_TRY(page_open(&page, run->plan.directory, run->study->name, run->study->doc));
 	if (run->options->is_quick)
 		page_text(&page, "Quick form: meshes are coarser and runs shorter than in the paper, so that numbers are not "
@@ -129,6 +131,8 @@ static JnStatus report(StudyRun* run) {
 	page_heading(&page, "What comes out here");
 	JnStatus status = run->study->report(run, &page);
 	if (status == JN_OK) page_runs(&page, &run->plan, &run->jobs);
+	if (status == JN_OK) status = compare_report_write(run->study->name, &run->jobs, &has_report);
+	if (has_report) page_link(&page, "report.html", "The runs side by side: curves, statistics, scenes");
 	const JnStatus closed = page_close(&page, &run->job_options);
 	return status != JN_OK ? status : closed;
 }

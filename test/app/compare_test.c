@@ -143,6 +143,7 @@ static void every_combination_is_a_row_and_a_folder(void** state) {
 static void tables_and_pictures_are_written(void** state) {
 	(void)state;
 	static const char* const files[] = {"comparison.md",
+										"report.html",
 										"comparison.txt",
 										"plots/comparison.dat",
 										"plots/convergence.gnuplot",

@@ -1,0 +1,105 @@
+// The attributes of run.h5, the scene, the times of its frames, and what there is in them.
+#include <stdio.h>
+#include <string.h>
+
+#include "base/log.h"
+#include "recording_file.h"
+#include "recording_part.h"
+
+/// A scalar text in the arena; "" when there is none.
+static const char* read_scene(Recording* recording) {
+	const hid_t type = H5Tcopy(H5T_C_S1);
+	char* text = NULL;
+	H5Tset_size(type, H5T_VARIABLE);
+	H5Tset_cset(type, H5T_CSET_UTF8);
+	const JnStatus status = recording_file_array(recording->file, "/scene", type, 1, &text);
+	const char* copy = jn_arena_text(&recording->arena, status == JN_OK && text != NULL ? text : "");
+	if (text != NULL) H5free_memory(text);
+	H5Tclose(type);
+	return copy;
+}
+
+JnStatus recording_read_facts(Recording* recording) {
+	const struct {
+		const char* name;
+		const char** text;
+	} texts[] = {
+		{"scene_name", &recording->scene_name}, {"scene_path", &recording->scene_path},
+		{"method", &recording->method},         {"host", &recording->host},
+		{"created", &recording->created},       {"outcome", &recording->outcome},
+		{"message", &recording->message},
+	};
+	for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i) {
+		*texts[i].text = recording_attribute_text(recording, "/", texts[i].name, "");
+		if (*texts[i].text == NULL) return JN_OUT_OF_MEMORY;
+	}
+	recording->scene_text = read_scene(recording);
+	recording_file_array(recording->file, "/gravity", H5T_NATIVE_DOUBLE, 3, recording->gravity);
+	recording_file_attribute(recording->file, "/", "total_mass", H5T_NATIVE_DOUBLE, &recording->total_mass);
+	return recording->scene_text != NULL ? JN_OK : JN_OUT_OF_MEMORY;
+}
+
+// ---- frames ----
+
+static JnStatus read_times(Recording* recording) {
+	double* times;
+	JN_NEW(&recording->arena, times, recording->frame_count);
+	for (int i = 0; i < recording->frame_count; ++i) {
+		char group[64];
+		snprintf(group, sizeof group, "/frames/%08d", i);
+		if (recording_file_attribute(recording->file, group, "time", H5T_NATIVE_DOUBLE, &times[i]) != JN_OK)
+			return recording_damaged(recording, group);
+	}
+	recording->times = times;
+	return JN_OK;
+}
+
+/// What stands in the first frame beside position, velocity and surface.
+static JnStatus read_fields(Recording* recording) {
+	const char* const* names;
+	RecordingField* fields;
+	int count;
+	JN_TRY(recording_names(recording, "/frames/00000000", &names, &count));
+	JN_NEW(&recording->arena, fields, count + 1);
+	for (int i = 0; i < count; ++i) {
+		char object[512];
+		snprintf(object, sizeof object, "/frames/00000000/%s", names[i]);
+		const hssize_t values = recording_file_measure(recording->file, object);
+		const bool is_other =
+			strcmp(names[i], "position") == 0 || strcmp(names[i], "velocity") == 0 || strcmp(names[i], "surface") == 0;
+		if (is_other || values <= 0 || values % recording->node_count != 0) continue;
+		const int components = (int)(values / recording->node_count);
+		const char* unit = recording_attribute_text(recording, object, "unit", "");
+		if (unit == NULL) return JN_OUT_OF_MEMORY;
+		if (components == 1 || components == 3)
+			fields[recording->field_count++] = (RecordingField){names[i], unit, components};
+	}
+	recording->fields = fields;
+	return JN_OK;
+}
+
+static JnStatus read_columns(Recording* recording) {
+	const char* const* names;
+	RecordingColumn* columns;
+	JN_TRY(recording_names(recording, "/series", &names, &recording->column_count));
+	JN_NEW(&recording->arena, columns, recording->column_count + 1);
+	for (int i = 0; i < recording->column_count; ++i) {
+		char object[512];
+		snprintf(object, sizeof object, "/series/%s", names[i]);
+		columns[i] = (RecordingColumn){names[i], recording_attribute_text(recording, object, "unit", "")};
+		if (columns[i].unit == NULL) return JN_OUT_OF_MEMORY;
+		if (i == 0) recording->step_count = (int)recording_file_measure(recording->file, object);
+	}
+	recording->columns = columns;
+	return recording->step_count >= 0 ? JN_OK : recording_damaged(recording, "/series");
+}
+
+JnStatus recording_read_frames(Recording* recording) {
+	JN_TRY(recording_attribute_count(recording, "/frames", "count", &recording->frame_count));
+	if (recording->frame_count < 1)
+		return jn_error(JN_BAD_INPUT, "%s: there are no frames yet; wait until the run has written one",
+						recording->path);
+	JN_TRY(read_times(recording));
+	JN_TRY(read_fields(recording));
+	return read_columns(recording);
+}
