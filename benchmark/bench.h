@@ -23,7 +23,7 @@ double clock_for(int threads);
 /// Sort `count` samples and take their median, minimum and maximum.
 Timing summarize(double samples[], int count);
 
-/// Floating-point operations on doubles that run(context) executes: a forked copy of the process is single-stepped and
+/// Floating-point operations that run(context) executes: a forked copy of the process is single-stepped and
 /// its instructions are decoded (a fused multiply-add counts two, every lane counts). 0 where that cannot be done.
 double count_flops(void (*run)(void*), void* context);
 
@@ -73,17 +73,24 @@ void bench_kernels(const Bench* bench);
 /// Assembly, products and the direct solver, on whole models.
 JnStatus bench_models(const Bench* bench);
 JnStatus bench_steps(const Bench* bench);
+/// Steps of the smallest models.
+JnStatus bench_small(const Bench* bench);
 /// Small explicit steps of threads.
 JnStatus bench_threads(const Bench* bench);
 /// Peridynamic bonds without a matrix.
 JnStatus bench_bonds(const Bench* bench);
 /// Contact solvers on the problems that scenes make.
 JnStatus bench_contact(const Bench* bench);
+/// Forces, products, solves and steps of blocks from 2,000 to 824,000 unknowns.
+JnStatus bench_scaling(const Bench* bench);
+/// Its rows of whole steps, of the scene of one size.
+JnStatus bench_scaling_steps(const Bench* bench, const char* size, int steps, int threads);
 
 // ---- shared pieces ----
 
-/// PRODUCT: of the definite form, as damping takes it; of kernels that have one.
-typedef enum Verb { ENERGY, FORCE, TANGENT, DEFINITE, ASSEMBLED_VERBS, PRODUCT = ASSEMBLED_VERBS, VERBS } Verb;
+/// What kernels do; those behind DEFINITE where they have it. Products of constraints are those of the definite form, as
+/// damping takes them.
+typedef enum Verb { ENERGY, FORCE, TANGENT, DEFINITE, PRODUCT, STORE, PRODUCT_SINGLE, DIAGONAL, VERBS } Verb;
 
 extern const char* const verb_names[VERBS];
 
@@ -92,7 +99,9 @@ typedef struct KernelRun {
 	const JnGroup* group;
 	int batches; ///< of the group, from the first
 	const double* x;
-	double* out; ///< KERNEL_RUN_REALS
+	double* out;   ///< KERNEL_RUN_REALS
+	float* stored; ///< of STORE and PRODUCT_SINGLE: stored_reals[0] floats a point
+	float* single; ///< of PRODUCT_SINGLE: a direction with 4 numbers a node
 	Verb verb;
 } KernelRun;
 
@@ -103,7 +112,8 @@ void kernel_run(void* context);
 /// A deformed copy of rest positions in `x`: turned by 0.3 rad, bent, and every coordinate moved by up to 5 % of `edge`.
 void deform(int node_count, const double* rest, double edge, double* x);
 
-/// Where the scene of `size` is, and what to set in it: "beam", or "block<n>" with n^3 hexahedra.
+/// Where the scene of `size` is, and what to set in it: "beam", "cloth" or another scene's name, or "block<n>" with n^3
+/// hexahedra.
 typedef struct SceneOf {
 	char path[512];
 	char cells[64];

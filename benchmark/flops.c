@@ -1,6 +1,6 @@
 // Counts floating-point operations without hardware counters, which virtual machines rarely offer: a child process runs
 // the work one instruction at a time (ptrace), and each instruction is looked up by its encoding.
-//   VEX, EVEX or SSE prefix -> opcode map, operand prefix (66: packed doubles, F2: one double), vector length
+//   VEX, EVEX or SSE prefix -> opcode map, operand prefix (none: packed floats, 66: packed doubles, F3 and F2: one of them), vector length
 #include "bench.h"
 
 #if defined(__x86_64__) && defined(__linux__)
@@ -13,8 +13,8 @@
 typedef struct Instruction {
 	int map;      // 1: 0F, 2: 0F 38, 3: 0F 3A; 0: none of these
 	int prefix;   // 0 none, 1: 66, 2: F3, 3: F2
-	int length;   // lanes of packed doubles: 2, 4 or 8
-	bool is_wide; // W bit
+	int length;   // lanes of packed doubles: 2, 4 or 8; half as many as of floats
+	bool is_wide; // W bit: doubles
 	uint8_t opcode;
 } Instruction;
 
@@ -54,11 +54,11 @@ static bool is_arithmetic(uint8_t opcode) { // sqrt, add, mul, sub, div
 }
 
 static int flops_of(Instruction in) {
-	if (in.map == 1 && is_arithmetic(in.opcode)) return in.prefix == 1 ? in.length : in.prefix == 3 ? 1 : 0;
+	if (in.map == 1 && is_arithmetic(in.opcode)) return in.prefix == 0 ? 2 * in.length : in.prefix == 1 ? in.length : 1;
 	const int row = in.opcode >> 4, column = in.opcode & 15;
-	const bool is_fma = in.map == 2 && in.prefix == 1 && in.is_wide && row >= 9 && row <= 11 && column >= 6;
+	const bool is_fma = in.map == 2 && in.prefix == 1 && row >= 9 && row <= 11 && column >= 6;
 	if (!is_fma) return 0;
-	return column >= 8 && column % 2 == 1 ? 2 : 2 * in.length;
+	return column >= 8 && column % 2 == 1 ? 2 : (in.is_wide ? 2 : 4) * in.length;
 }
 
 static double follow(pid_t child) {

@@ -8,7 +8,8 @@
 #include "force/solid.h"
 #include "mesh/shape/shape.h"
 
-const char* const verb_names[VERBS] = {"energy", "force", "tangent", "definite", "product"};
+const char* const verb_names[VERBS] = {"energy",  "force", "tangent",        "definite",
+									   "product", "store", "product_single", "diagonal"};
 
 enum { FORCE_CHUNK = 64, TANGENT_CHUNK = 16 }; // elements, as in the assembly
 
@@ -16,12 +17,20 @@ void kernel_run(void* context) {
 	const KernelRun* run = context;
 	const JnGroup* group = run->group;
 	const JnKernel* kernel = group->kernel;
-	const bool is_tangent = run->verb == TANGENT || run->verb == DEFINITE;
+	const bool is_tangent = run->verb == TANGENT || run->verb == DEFINITE, is_constraint = kernel->law == NULL;
+	const ptrdiff_t stored = (ptrdiff_t)kernel->width * kernel->points * kernel->stored_reals[0];
 	const int step = (is_tangent ? TANGENT_CHUNK : FORCE_CHUNK) / kernel->width;
 	for (int first = 0; first < run->batches; first += step) {
 		const int last = first + step < run->batches ? first + step : run->batches;
 		if (run->verb == PRODUCT)
-			kernel->product(group, first, last, run->x, true, run->x, run->out);
+			kernel->product(group, first, last, run->x, is_constraint, run->x, run->out);
+		else if (run->verb == STORE)
+			kernel->store(group, first, last, run->x, false, run->stored);
+		else if (run->verb == PRODUCT_SINGLE)
+			kernel->product_single(group, first, last, false, run->stored + stored * first, run->single,
+								   (float*)run->out);
+		else if (run->verb == DIAGONAL)
+			kernel->diagonal(group, first, last, run->x, false, run->out);
 		else if (is_tangent)
 			kernel->tangent(group, first, last, run->x, run->verb == DEFINITE, run->out);
 		else
@@ -47,6 +56,7 @@ typedef struct Problem {
 	JnArena arena;
 	JnGroup group;
 	double *x, *out;
+	float *stored, *single;
 } Problem;
 
 static const JnMaterialDef material = {.density = 1000, .young = 1e6, .poisson = 0.4};
@@ -64,6 +74,10 @@ static JnStatus make_problem(const JnKernel* kernel, Problem* problem) {
 	JN_NEW(&problem->arena, problem->out, KERNEL_RUN_REALS);
 	deform(mesh.node_count, mesh.nodes, 1.0 / box.cells[2], problem->x);
 	if (kernel->freeze != NULL) kernel->freeze(&problem->group, 0, problem->group.batches, problem->x);
+	const int slots = (problem->group.batches + 1) / 2 * 2 * kernel->width;
+	JN_NEW(&problem->arena, problem->stored, slots * kernel->points * kernel->stored_reals[0]);
+	JN_NEW(&problem->arena, problem->single, 4 * mesh.node_count);
+	for (int k = 0; k < 3 * mesh.node_count; k++) problem->single[4 * (k / 3) + k % 3] = (float)problem->x[k];
 	return JN_OK;
 }
 
@@ -120,8 +134,17 @@ static JnStatus make_row(JnConstraintKernel which, int width, Problem* problem) 
 	return JN_OK;
 }
 
+static bool has_verb(const JnKernel* kernel, Verb verb) {
+	return verb == PRODUCT          ? kernel->product != NULL
+		   : verb == STORE          ? kernel->store != NULL
+		   : verb == PRODUCT_SINGLE ? kernel->product_single != NULL
+		   : verb == DIAGONAL       ? kernel->diagonal != NULL
+									: true;
+}
+
 static void measure_verb(const Bench* bench, const Problem* problem, Verb verb) {
 	const JnGroup* group = &problem->group;
+	if (!has_verb(group->kernel, verb)) return;
 	char name[64], size[24];
 	snprintf(name, sizeof name, "%s.%s.%s",
 			 group->kernel->name != NULL ? "constraint" : jn_shape_info[group->kernel->shape].name,
@@ -129,13 +152,17 @@ static void measure_verb(const Bench* bench, const Problem* problem, Verb verb) 
 	snprintf(size, sizeof size, "%d", group->count);
 	if (!bench_wants(bench, "kernel", name, size)) return;
 	KernelRun run = {.group = group, .batches = 1, .x = problem->x, .out = problem->out, .verb = verb};
-	const double flops = count_flops(kernel_run, &run) / group->kernel->width; // of an element
+	run.stored = problem->stored;
+	run.single = problem->single;
+	const int lanes = verb == PRODUCT_SINGLE ? 2 * group->kernel->width : group->kernel->width;
+	const double flops = count_flops(kernel_run, &run) / lanes; // of an element
 	run.batches = group->batches;
 	const Timing seconds = measure(kernel_run, &run, 1, 0.1, 7);
 	Row row = {.group = "kernel", .name = name, .size = size, .threads = 1, .width = group->kernel->width};
 	row.value = timing_in(seconds, 1e-9, group->count);
 	row.unit = "ns/element";
 	if (flops > 0) row_set_flops(bench, &row, seconds.median, flops * group->count);
+	if (verb == PRODUCT_SINGLE) row.fraction /= 2; // twice as many floats as doubles fit into a register
 	bench_report(bench, &row);
 }
 
@@ -143,7 +170,7 @@ static void measure_pair(const Bench* bench, JnShape shape, const JnLaw* law, in
 	const JnKernel* kernel = jn_kernel_find(shape, law, width);
 	Problem problem = {0};
 	if (kernel != NULL && make_problem(kernel, &problem) == JN_OK)
-		for (Verb verb = 0; verb < ASSEMBLED_VERBS; verb++) measure_verb(bench, &problem, verb);
+		for (Verb verb = 0; verb < VERBS; verb++) measure_verb(bench, &problem, verb);
 	jn_arena_free(&problem.arena);
 }
 

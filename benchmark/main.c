@@ -17,9 +17,8 @@
 static const char help[] =
 	"usage: jounce_bench [--csv FILE] [--threads N] [WORD ...]\n\n"
 	"Measures the rows whose group.name.size contains one of the words, or all of them (about 4 minutes), and prints\n"
-	"medians with [fastest, slowest]. Groups: machine, kernel, model, step, thread, bond, qp. Sizes of model and step: "
-	"beam, "
-	"block16, block32.\n\n"
+	"medians with [fastest, slowest]. Groups: machine, kernel, model, step, thread, bond, qp, scaling. Sizes of model "
+	"and step: beam, block16, block32; of models also cloth and block64, of scaling block8 to block64.\n\n"
 	"  --csv FILE   write the rows there too\n"
 	"  --threads N  threads to compare with one; the processors there are unless given\n";
 
@@ -55,8 +54,8 @@ static void write_header(FILE* out) {
 SceneOf scene_of(const char* size) {
 	SceneOf out = {0};
 	const bool is_block = strncmp(size, "block", 5) == 0;
-	snprintf(out.path, sizeof out.path, "%s/%s", JN_SOURCE_DIR,
-			 is_block ? "benchmark/scenes/block.yaml" : "scenes/beam.yaml");
+	snprintf(out.path, sizeof out.path, "%s/%s%s.yaml", JN_SOURCE_DIR, is_block ? "benchmark/scenes/" : "scenes/",
+			 is_block ? "block" : size);
 	if (!is_block) return out;
 	const int n = atoi(size + 5);
 	snprintf(out.cells, sizeof out.cells, "bodies[0].shape.cells=[%d,%d,%d]", n, n, n);
@@ -74,9 +73,11 @@ static JnStatus run_groups(Bench* bench) {
 	bench_kernels(bench);
 	JN_TRY(bench_models(bench));
 	JN_TRY(bench_steps(bench));
+	JN_TRY(bench_small(bench));
 	JN_TRY(bench_threads(bench));
 	JN_TRY(bench_bonds(bench));
-	return bench_contact(bench);
+	JN_TRY(bench_contact(bench));
+	return bench_scaling(bench);
 }
 
 static int usage_error(const char* words) {

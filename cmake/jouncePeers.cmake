@@ -1,0 +1,47 @@
+# Drivers of other programs on scenes of ours, for `./dev bench --peers`: target jounce_peers, built only when asked for. Which
+# of them are there follows from which packages are.
+find_package(PkgConfig)
+add_custom_target(jounce_peers)
+
+# jounce_peer(<name> <sources...>): a program peer_<name> that sees the library from within
+function(jounce_peer name)
+	add_executable(peer_${name} EXCLUDE_FROM_ALL ${ARGN})
+	target_include_directories(peer_${name} PRIVATE include src benchmark/peers)
+	target_link_libraries(peer_${name} PRIVATE jounce jounce_flags ${JN_DEPENDENCIES} OpenMP::OpenMP_C m)
+	add_dependencies(jounce_peers peer_${name})
+endfunction()
+
+jounce_peer(own benchmark/peers/own.c benchmark/peers/export.c benchmark/peers/peer.c)
+
+find_path(JN_ARKODE_INCLUDE arkode/arkode_arkstep.h)
+find_library(JN_ARKODE_LIBRARY sundials_arkode)
+find_library(JN_NVECSERIAL_LIBRARY sundials_nvecserial)
+mark_as_advanced(JN_ARKODE_INCLUDE JN_ARKODE_LIBRARY JN_NVECSERIAL_LIBRARY)
+if(JN_ARKODE_INCLUDE AND JN_ARKODE_LIBRARY AND JN_NVECSERIAL_LIBRARY)
+	jounce_peer(arkode benchmark/peers/arkode.c benchmark/peers/peer.c)
+	target_include_directories(peer_arkode SYSTEM PRIVATE ${JN_ARKODE_INCLUDE})
+	target_link_libraries(peer_arkode PRIVATE ${JN_ARKODE_LIBRARY} ${JN_NVECSERIAL_LIBRARY})
+endif()
+
+if(PKG_CONFIG_FOUND)
+	pkg_check_modules(PETSC IMPORTED_TARGET QUIET PETSc)
+	pkg_check_modules(MPI IMPORTED_TARGET QUIET mpi-c)
+endif()
+if(PETSC_FOUND AND MPI_FOUND)
+	file(GLOB petsc_sources CONFIGURE_DEPENDS benchmark/peers/petsc*.c)
+	jounce_peer(petsc ${petsc_sources} benchmark/peers/blocks.c benchmark/peers/peer.c)
+	target_link_libraries(peer_petsc PRIVATE PkgConfig::PETSC PkgConfig::MPI)
+endif()
+
+if(PKG_CONFIG_FOUND)
+	pkg_check_modules(BULLET IMPORTED_TARGET QUIET bullet)
+	include(CheckLanguage)
+	check_language(CXX)
+endif()
+if(BULLET_FOUND AND CMAKE_CXX_COMPILER)
+	enable_language(CXX)
+	add_executable(peer_bullet EXCLUDE_FROM_ALL benchmark/peers/bullet.cpp)
+	target_compile_features(peer_bullet PRIVATE cxx_std_17)
+	target_link_libraries(peer_bullet PRIVATE PkgConfig::BULLET)
+	add_dependencies(jounce_peers peer_bullet)
+endif()
