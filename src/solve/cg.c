@@ -393,19 +393,17 @@ static const JnKey cg_keys[] = {
 	{0},
 };
 
+#define VERBS                                                                                                          \
+	.destroy = destroy, .takes_products = takes_products, .attach = attach, .factor = factor, .solve = solve,          \
+	.approximate = approximate, .cost = cost
+
 const JnSolverType jn_solver_cg = {
 	.row = {.name = "cg",
 			.doc = "conjugate gradients: little memory, for large models; where laws allow, without a matrix",
 			.keys = cg_keys,
 			.options_size = sizeof(JnCgDef)},
 	.create = create_cg,
-	.destroy = destroy,
-	.takes_products = takes_products,
-	.attach = attach,
-	.factor = factor,
-	.solve = solve,
-	.approximate = approximate,
-	.cost = cost,
+	VERBS,
 };
 
 const JnSolverType jn_solver_auto = {
@@ -414,11 +412,5 @@ const JnSolverType jn_solver_auto = {
 			.keys = auto_keys,
 			.options_size = sizeof(JnCgDef)},
 	.create = create_auto,
-	.destroy = destroy,
-	.takes_products = takes_products,
-	.attach = attach,
-	.factor = factor,
-	.solve = solve,
-	.approximate = approximate,
-	.cost = cost,
+	VERBS,
 };
