@@ -19,19 +19,6 @@ static void swinging_box(ModelCase* c) {
 	c->body.mass = 1;
 }
 
-static void driven_box(ModelCase* c) {
-	case_box(c, JN_TET4, "corotated");
-	case_gravity(c, 0, -9.81, 0);
-	case_drive(c, FACE_Z_HIGH, 0.05, 2);
-}
-
-static void damped_box(ModelCase* c) {
-	case_box(c, JN_HEX8, "st_venant_kirchhoff");
-	case_gravity(c, 0, -9.81, 1);
-	c->body.damping = (JnDampingDef){.alpha = 0.3, .beta = 0.01};
-	c->body.velocity[1] = 0.5;
-}
-
 static void box_of_frozen_rotations(ModelCase* c) {
 	case_box(c, JN_HEX8, "corotated_frozen");
 	case_gravity(c, 3, -9.81, 0);
@@ -42,8 +29,8 @@ static const struct {
 	const char* name;
 	Prepare* prepare;
 } models[] = {{"swinging box", swinging_box},
-			  {"driven box", driven_box},
-			  {"damped box", damped_box},
+			  {"driven box", case_driven_bar},
+			  {"damped box", case_damped_body},
 			  {"frozen rotations", box_of_frozen_rotations}};
 enum { MODELS = sizeof models / sizeof *models };
 

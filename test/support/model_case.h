@@ -112,6 +112,21 @@ static inline void case_drive(ModelCase* c, int face, double amplitude, double f
 	c->body.drive = (JnItems){1, &c->drive};
 }
 
+/// A bar of tetrahedra whose upper end is moved.
+static inline void case_driven_bar(ModelCase* c) {
+	case_box(c, JN_TET4, "corotated");
+	case_gravity(c, 0, -9.81, 0);
+	case_drive(c, FACE_Z_HIGH, 0.05, 2);
+}
+
+/// A body with both parts of Rayleigh damping, moving at the start.
+static inline void case_damped_body(ModelCase* c) {
+	case_box(c, JN_HEX8, "st_venant_kirchhoff");
+	case_gravity(c, 0, -9.81, 1);
+	c->body.damping = (JnDampingDef){.alpha = 0.3, .beta = 0.01};
+	c->body.velocity[1] = 0.5;
+}
+
 /// A model with an integrator, stepped by hand.
 typedef struct Rig {
 	JnModel* model;

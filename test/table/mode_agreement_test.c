@@ -20,21 +20,8 @@ static void falling_beam(ModelCase* c) {
 	case_gravity(c, 3, -9.81, 0);
 }
 
-static void driven_bar(ModelCase* c) {
-	case_box(c, JN_TET4, "corotated");
-	case_gravity(c, 0, -9.81, 0);
-	case_drive(c, FACE_Z_HIGH, 0.05, 2);
-}
-
-static void damped_body(ModelCase* c) {
-	case_box(c, JN_HEX8, "st_venant_kirchhoff");
-	case_gravity(c, 0, -9.81, 1);
-	c->body.damping = (JnDampingDef){.alpha = 0.3, .beta = 0.01};
-	c->body.velocity[1] = 0.5;
-}
-
 static void body_with_damping_that_follows(ModelCase* c) {
-	damped_body(c);
+	case_damped_body(c);
 	c->body.damping.stiffness = 2; // D of the present state: no potential
 }
 
@@ -47,8 +34,8 @@ static const struct {
 	const char* name;
 	Prepare* prepare;
 } models[] = {{"falling beam", falling_beam},
-			  {"driven bar", driven_bar},
-			  {"damped body", damped_body},
+			  {"driven bar", case_driven_bar},
+			  {"damped body", case_damped_body},
 			  {"damping that follows", body_with_damping_that_follows},
 			  {"linear body", linear_body}};
 enum { MODELS = sizeof models / sizeof *models };
