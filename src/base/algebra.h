@@ -27,7 +27,7 @@ typedef struct JnAlgebra {
 	void (*multiply)(size_t n, const double* a, const double* b, double* out);
 	/// out += scale * a * b, entry by entry; out is neither.
 	void (*accumulate)(size_t n, double scale, const double* a, const double* b, double* out);
-	/// Entries first .. last of it; whether all of v_out are finite.
+	/// Entries first .. last of it; whether all of v_out, and of x_out if drift is not 0, are finite.
 	bool (*advance)(size_t first, size_t last, const JnAdvance* by);
 } JnAlgebra;
 

@@ -1,4 +1,5 @@
 // Reading of the kinds that hold no table: numbers with units and bounds, switches, texts, choices, fixed lists.
+#include <assert.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,6 +9,9 @@
 #include "base/key_reader.h"
 #include "base/quantity.h"
 
+// Products of some such numbers are still numbers: squares of lengths, volumes, energies.
+static const double largest = 1e30, smallest = 1e-30;
+
 static bool is_inside(const JnKey* key, double value) {
 	if (key->low == 0 && key->high == 0) return true;
 	const bool above = (key->open & JN_OPEN_LOW) != 0 ? value > key->low : value >= key->low;
@@ -15,7 +19,18 @@ static bool is_inside(const JnKey* key, double value) {
 	return above && below;
 }
 
+static JnStatus check_size(const JnKeyReader* reader, const char* unit, const JnNode* node, double value) {
+	if (fabs(value) <= largest) return JN_OK;
+	return jn_key_error(reader, node, "%.100s is beyond %g%s%s, the largest that a number here may be", node->scalar,
+						largest, unit != NULL ? " " : "", unit != NULL ? unit : "");
+}
+
 static JnStatus check_bounds(const JnKeyReader* reader, const JnKey* key, const JnNode* node, double value) {
+	if ((key->low == 0 && key->high == 0) || isinf(key->high)) JN_TRY(check_size(reader, key->unit, node, value));
+	const bool is_tiny = key->low == 0 && (key->open & JN_OPEN_LOW) != 0 && value > 0 && value < smallest;
+	if (is_tiny)
+		return jn_key_error(reader, node, "%.100s is below %g%s%s, the smallest that a number here may be",
+							node->scalar, smallest, key->unit != NULL ? " " : "", key->unit != NULL ? key->unit : "");
 	if (is_inside(key, value)) return JN_OK;
 	char bounds[96];
 	jn_bounds_text(key, sizeof bounds, bounds);
@@ -81,6 +96,7 @@ JnStatus jn_read_text(JnKeyReader* reader, const JnKey* key, const JnNode* node,
 JnStatus jn_read_path(JnKeyReader* reader, const JnKey* key, const JnNode* node, void* field) {
 	const char* path = NULL;
 	JN_TRY(jn_read_text(reader, key, node, &path));
+	assert(path != NULL);
 	if (path[0] == '\0') return jn_key_error(reader, node, "is empty, but the path of a file is expected");
 	const char* slash = node->line > 0 ? strrchr(node->source, '/') : NULL; // an override has no line, and no folder
 	const bool is_beside = path[0] != '/' && slash != NULL;
@@ -136,6 +152,7 @@ static JnStatus read_point(JnKeyReader* reader, const JnKey* key, const JnNode* 
 	if (node->count != 2) return jn_key_error(reader, node, "is a list of %d, but %s", node->count, expected);
 	size_t mark = jn_key_enter(reader, NULL, 0);
 	JN_TRY(read_number(reader, "s", node->children[0], &point[0]));
+	JN_TRY(check_size(reader, "s", node->children[0], point[0]));
 	jn_key_leave(reader, mark);
 	mark = jn_key_enter(reader, NULL, 1);
 	JN_TRY(jn_read_real(reader, key, node->children[1], &point[1]));

@@ -19,4 +19,8 @@ typedef struct JnLog {
 /// Send messages elsewhere; returns where they went before, to be put back. For layers that add what they know.
 JnLog jn_log_swap(JnLog log);
 
+#ifdef __clang_analyzer__ // sees one file at a time, so that it has to be told what comes back
+	#define jn_error(status, ...) (jn_error(status, __VA_ARGS__), (status))
+#endif
+
 #endif

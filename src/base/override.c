@@ -137,10 +137,10 @@ JnStatus jn_document_set(JnDocument* document, const char* assignment) {
 	if (equals == NULL || equals == assignment) {
 		return jn_error(JN_BAD_INPUT, "--set %s: write path=value, such as step.dt=10ms", assignment);
 	}
-	char* source = jn_arena_take(document->arena, strlen(prefix) + strlen(assignment) + 1, 1);
+	const size_t size = strlen(prefix) + strlen(assignment) + 1;
+	char* source = jn_arena_take(document->arena, size, 1);
 	if (source == NULL) return JN_OUT_OF_MEMORY;
-	strcpy(source, prefix);
-	strcat(source, assignment);
+	snprintf(source, size, "%s%s", prefix, assignment);
 	const char* path = source + strlen(prefix);
 	Override override = {.arena = document->arena, .source = source, .path = path, .cursor = path};
 	override.end = path + (equals - assignment);

@@ -1,6 +1,8 @@
 #include "base/processor.h"
 
-int jn_processor_width(void) {
+#include <stdlib.h>
+
+static int widest(void) {
 #if defined(__x86_64__)
 	__builtin_cpu_init();
 	if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return 2;
@@ -10,4 +12,10 @@ int jn_processor_width(void) {
 #else
 	return 2;
 #endif
+}
+
+int jn_processor_width(void) {
+	const char* asked = getenv("JN_SIMD_WIDTH");
+	const int most = widest(), width = asked != NULL ? atoi(asked) : most;
+	return (width == 2 || width == 4) && width < most ? width : most;
 }

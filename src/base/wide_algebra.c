@@ -146,14 +146,17 @@ static inline __attribute__((always_inline)) bool advance_with(size_t first, siz
 		Wide f = *(const Loaded*)(force + k);
 		if (has_load) f += *(const Loaded*)(by->load + k);
 		const Wide v = *(const Loaded*)(by->v + k) + by->kick * (*(const Loaded*)(m + k) * f);
-		is_finite &= (Wide)((Mask)v & INT64_MAX) <= DBL_MAX;
-		if (has_drift) *(Loaded*)(by->x_out + k) = *(const Loaded*)(by->x + k) + by->drift * v;
+		Wide x = v; // finite only where v is
+		if (has_drift) x = *(const Loaded*)(by->x + k) + by->drift * v;
+		is_finite &= (Wide)((Mask)x & INT64_MAX) <= DBL_MAX;
+		if (has_drift) *(Loaded*)(by->x_out + k) = x;
 		*(Loaded*)(by->v_out + k) = v;
 	}
 	for (; k < last; ++k) {
 		const double f = has_load ? force[k] + by->load[k] : force[k], v = by->v[k] + by->kick * (m[k] * f);
-		all_finite &= fabs(v) <= DBL_MAX;
-		if (has_drift) by->x_out[k] = by->x[k] + by->drift * v;
+		const double x = has_drift ? by->x[k] + by->drift * v : v;
+		all_finite &= fabs(x) <= DBL_MAX;
+		if (has_drift) by->x_out[k] = x;
 		by->v_out[k] = v;
 	}
 	for (int l = 0; l < JN_WIDE; ++l) all_finite &= is_finite[l] != 0;

@@ -1,6 +1,6 @@
 /// @file wide.h
 /// JN_WIDE doubles side by side: a GNU vector type on which +, -, * and / work as on numbers, and what else formulas
-/// need. One lane is one element. For equal inputs 8 and 4 lanes give the same bits; 2 lanes round a * b + c twice.
+/// need. One lane is one element. For equal inputs 8, 4 and 2 lanes give the same bits.
 #ifndef JN_MATH_WIDE_H
 #define JN_MATH_WIDE_H
 
@@ -184,13 +184,13 @@ JN_INLINE Wide wide_sqrt(Wide a) {
 #endif
 }
 
-/// a * b + c, rounded once where the processor can (8 and 4 lanes).
-JN_INLINE Wide wide_fma(Wide a, Wide b, Wide c) {
 #if JN_WIDE > 2
+/// a * b + c, rounded once.
+JN_INLINE Wide wide_fma(Wide a, Wide b, Wide c) {
 	return JN_WIDE_CALL(fmadd_pd)(a, b, c);
-#else
-	return a * b + c;
-#endif
 }
+#else
+	#include "math/wide_fma.h"
+#endif
 
 #endif

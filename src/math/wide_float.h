@@ -36,14 +36,28 @@ JN_INLINE void wide_store_rounded(float* to, Wide a) {
 	*(HalfFloatInMemory*)to = __builtin_convertvector(a, HalfFloatInMemory);
 }
 
-/// a * b + c, rounded once where the processor can.
-JN_INLINE WideFloat wide_float_fma(WideFloat a, WideFloat b, WideFloat c) {
 #if JN_WIDE > 2
+/// a * b + c, rounded once.
+JN_INLINE WideFloat wide_float_fma(WideFloat a, WideFloat b, WideFloat c) {
 	return JN_WIDE_CALL(fmadd_ps)(a, b, c);
-#else
-	return a * b + c;
-#endif
 }
+#elif defined(__FP_FAST_FMAF)
+JN_INLINE WideFloat wide_float_fma(WideFloat a, WideFloat b, WideFloat c) {
+	for (int k = 0; k < JN_WIDE_FLOATS; ++k) a[k] = __builtin_fmaf(a[k], b[k], c[k]);
+	return a;
+}
+#else
+/// a * b + c, rounded once: in doubles the product is exact, and a sum rounded to odd may be rounded again.
+JN_SHARED WideFloat wide_float_fma(WideFloat a, WideFloat b, WideFloat c) {
+	WideFloat out = {0};
+	JN_UNROLL for (int k = 0; k < 4; k += 2) {
+		const Wide sum = wide_sum_to_odd((Wide){a[k], a[k + 1]} * (Wide){b[k], b[k + 1]}, (Wide){c[k], c[k + 1]});
+		out[k] = (float)sum[0];
+		out[k + 1] = (float)sum[1];
+	}
+	return out;
+}
+#endif
 
 JN_INLINE FourFloats four_floats_load(const float* from) {
 	return *(const FourFloatsInMemory*)from;
@@ -69,21 +83,6 @@ JN_INLINE void wide_float_transpose(WideFloat r[4]) {
 #else
 	const WideFloat a = r[0], b = r[1], c = r[2], d = r[3];
 	for (int k = 0; k < 4; ++k) r[k] = (WideFloat){a[k], b[k], c[k], d[k]};
-#endif
-}
-
-/// Quarter q of a.
-JN_INLINE FourFloats wide_float_quarter(WideFloat a, int q) {
-#if JN_WIDE == 8
-	return q == 0   ? __builtin_shufflevector(a, a, 0, 1, 2, 3)
-		   : q == 1 ? __builtin_shufflevector(a, a, 4, 5, 6, 7)
-		   : q == 2 ? __builtin_shufflevector(a, a, 8, 9, 10, 11)
-					: __builtin_shufflevector(a, a, 12, 13, 14, 15);
-#elif JN_WIDE == 4
-	return q == 0 ? __builtin_shufflevector(a, a, 0, 1, 2, 3) : __builtin_shufflevector(a, a, 4, 5, 6, 7);
-#else
-	(void)q;
-	return a;
 #endif
 }
 
