@@ -49,7 +49,7 @@ static Rest rest_of(double J[3][3]) {
 	return rest;
 }
 
-static JnStatus check_cell(const JnElement* element, const JnMesh* mesh, int cell) {
+static JnStatus check_cell(const JnElement* element, const JnMesh* mesh, int cell, const char* what) {
 	const double volume = jn_mesh_cell_volume(mesh, cell); // quadrature points alone miss exchanged corners of a tet10
 	for (int p = 0; p < element->points; p++) {
 		double J[3][3];
@@ -57,10 +57,12 @@ static JnStatus check_cell(const JnElement* element, const JnMesh* mesh, int cel
 		const Rest rest = rest_of(J);
 		if (rest.determinant > 0 && volume > 0 && isfinite(rest.L[0])) continue;
 		const double scale = mesh->shape == JN_HEX8 ? 512 : 1; // of a cube with edges of 2, as people know it
-		return jn_error(JN_BAD_INPUT,
-						"cell %d of the %s mesh is flat or inside out: its volume is %g m^3 and its Jacobian at "
-						"quadrature point %d is %g, both must be > 0; check the order of its nodes",
-						cell, jn_shape_info[mesh->shape].name, volume, p, rest.determinant / scale);
+		return jn_error(
+			JN_BAD_INPUT,
+			"%s.shape: cell %d of the %s mesh is flat or inside out: its volume is %g m^3 and its Jacobian at "
+			"quadrature point %d is %g, both must be > 0; check the order of its nodes, or make the shape "
+			"less extreme",
+			what, cell, jn_shape_info[mesh->shape].name, volume, p, rest.determinant / scale);
 	}
 	return JN_OK;
 }
@@ -160,11 +162,11 @@ static JnStatus fill_lanes(JnGroup* group, const JnMesh* mesh, int nodes_offset)
 }
 
 JnStatus jn_group_create(const JnKernel* kernel, const JnMesh* mesh, int nodes_offset, const JnMaterialDef* material,
-						 JnArena* arena, JnGroup* group) {
+						 const char* what, JnArena* arena, JnGroup* group) {
 	const int width = kernel->width, batches = (mesh->cell_count + width - 1) / width;
 	const size_t slots = (size_t)batches * width, pairs = ((size_t)batches + 1) / 2;
 	const JnElement* element = elements[mesh->shape];
-	for (int cell = 0; cell < mesh->cell_count; cell++) JN_TRY(check_cell(element, mesh, cell));
+	for (int cell = 0; cell < mesh->cell_count; cell++) JN_TRY(check_cell(element, mesh, cell, what));
 	*group = (JnGroup){.kernel = kernel, .count = mesh->cell_count, .batches = batches};
 	group->rest_points = are_parallelepipeds(element, mesh) ? 1 : kernel->points;
 	kernel->law->prepare(material, group->constants);
@@ -184,7 +186,7 @@ JnStatus jn_solid_build(const JnLaw* law, const void* options, const JnMesh* mes
 	const JnMaterialDef* material = options;
 	*out = (JnGroups){.count = 1, .density = material->density};
 	JN_NEW(arena, out->list, 1);
-	return jn_group_create(kernel, mesh, first_node, material, arena, out->list);
+	return jn_group_create(kernel, mesh, first_node, material, what, arena, out->list);
 }
 
 /// integral of N_i N_j over a tetrahedron of volume 1, times 420: 6 and 1 between corners; 32, 16 and 8 between equal,

@@ -140,9 +140,9 @@ const JnKernel* jn_kernel_find(JnShape shape, const JnLaw* law, int width);
 int jn_kernel_best_width(void);
 
 /// Build the group of a mesh's cells; `nodes_offset` is added to each node number. Fails with JN_BAD_INPUT naming the
-/// first cell whose rest Jacobian is not positive.
+/// first cell whose rest Jacobian is not positive; `what` is the key path of the body for messages.
 JnStatus jn_group_create(const JnKernel* kernel, const JnMesh* mesh, int nodes_offset, const JnMaterialDef* material,
-						 JnArena* arena, JnGroup* group);
+						 const char* what, JnArena* arena, JnGroup* group);
 
 /// Consistent element mass: out[i * nodes + j] = integral of density N_i N_j over `cell` [kg], exact for straight sides.
 /// Of a triangle with the density [kg/m^2], of a point its volume times density.

@@ -26,6 +26,7 @@ JN_INLINE Wide sine(Wide a) {
 	const Wide square = r * r;
 	Wide sum = wide_set(coefficient[8]);
 	JN_UNROLL for (int k = 7; k >= 0; k--) sum = wide_fma(sum, square, wide_set(coefficient[k]));
+	// cppcheck-suppress shiftTooManyBitsSigned // lanes of GNU C are shifted as bits
 	return (Wide)((WideMask)wide_fma(r * square, sum, r) ^ ((WideMask)shifted << 63));
 }
 
@@ -46,6 +47,7 @@ typedef struct Corners {
 
 JN_INLINE Corners corners_of(const double* from, const int* nodes) {
 	Corners out;
+	// cppcheck-suppress uninitvar // is written here
 	JN_UNROLL for (int c = 0; c < 3; c++) wide_gather_points(from, nodes + c * LANES, out.at[c]);
 	return out;
 }

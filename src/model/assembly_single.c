@@ -133,7 +133,7 @@ static void apply_range(const JnAssembly* assembly, const JnSingleSum* sum, JnNo
 	put_scalars(&assembly->model->pattern, sum, range, p, y);
 	for (int i = 0; i < JN_SINGLE_TERMS; ++i)
 		if (sum->stored[i].scale != 0)
-			add_stored(assembly, sum->stored[i], i == 0 ? sum->mass : NULL, range, p, (float*)buffer, y);
+			add_stored(assembly, sum->stored[i], i == 0 ? sum->mass : NULL, range, p, (void*)buffer, y);
 }
 
 void jn_assembly_apply_single(JnAssembly* assembly, const JnSingleSum* sum, const float* p, float* y) {

@@ -21,13 +21,21 @@ const JnKey jn_load_keys[] = {
 	{0},
 };
 
+// Row sums of the mass matrix are below 0 at corners of tet10, and may cancel; its diagonal never is.
+static double mass_of(const JnModel* model, const JnBody* body, int i) {
+	const int node = body->first_node + i;
+	if (body->mesh.shape != JN_TET10) return model->nodal_mass[node];
+	return model->mass[jn_pattern_find(&model->pattern, node, node)];
+}
+
 static void add_load(const JnLoadDef* def, const JnBody* body, const bool* chosen, JnModel* model) {
-	const double* mass = model->nodal_mass + body->first_node;
 	double total = 0;
-	for (int i = 0; i < body->mesh.node_count; ++i) total += chosen[i] ? mass[i] : 0;
-	for (int i = 0; i < body->mesh.node_count; ++i)
-		for (int axis = 0; axis < 3 && chosen[i]; ++axis)
-			model->loads[3 * (size_t)(body->first_node + i) + (size_t)axis] += def->force[axis] * mass[i] / total;
+	for (int i = 0; i < body->mesh.node_count; ++i) total += chosen[i] ? mass_of(model, body, i) : 0;
+	for (int i = 0; i < body->mesh.node_count; ++i) {
+		const double share = chosen[i] ? mass_of(model, body, i) / total : 0;
+		for (int axis = 0; axis < 3; ++axis)
+			model->loads[3 * (size_t)(body->first_node + i) + (size_t)axis] += def->force[axis] * share;
+	}
 }
 
 static JnStatus load_body(const JnBodyDef* def, int index, const JnBody* body, JnArena* scratch, JnModel* model) {

@@ -113,10 +113,13 @@ static JnStatus solve_to(JnMatrix* base, double tolerance, const double* rhs, Jn
 	}
 	++sys->base.report->solves;
 	if (!matrix->base.is_factored) JN_TRY(factor(matrix));
-	const JnStatus status = solve_with(matrix, tolerance, rhs, out);
-	if (status != JN_INDEFINITE || matrix->shift.stiffness == 0 || matrix->is_definite) return status;
-	JN_TRY(factor_as(matrix, true));
-	return solve_with(matrix, tolerance, rhs, out);
+	JnStatus status = solve_with(matrix, tolerance, rhs, out);
+	if (status == JN_INDEFINITE && matrix->shift.stiffness != 0 && !matrix->is_definite) {
+		status = factor_as(matrix, true);
+		if (status == JN_OK) status = solve_with(matrix, tolerance, rhs, out);
+	}
+	matrix->base.is_factored = status == JN_OK; // a solver that changed its way in vain may have nothing left
+	return status;
 }
 
 static JnStatus solve(JnMatrix* base, const double* rhs, JnVec out) {

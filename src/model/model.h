@@ -73,6 +73,7 @@ struct JnModel {
 	JnWind* wind;           ///< wind.h; NULL: none
 	JnRepulsion* repulsion; ///< repulsion.h; NULL: none
 	JnSystem* system;
+	JnArena system_arena; ///< what the system is made of
 };
 
 /// beta of a group [s]: that of its body and its own.
@@ -80,5 +81,8 @@ double jn_group_beta(const JnModel* model, const JnBody* body, int group);
 
 /// Does the body have stiffness damping?
 bool jn_body_has_beta(const JnModel* model, const JnBody* body);
+
+/// Write or read what changes in a model while it is simulated: which elements are broken, and where inputs move.
+void jn_model_archive(JnModel* model, JnArchive* archive);
 
 #endif

@@ -105,6 +105,10 @@ void jn_repulsion_destroy(JnRepulsion* self) {
 	free(self);
 }
 
+void jn_repulsion_forget(JnRepulsion* self) {
+	self->is_built = false;
+}
+
 static JnStatus visit_all(JnRepulsion* self, const double* x, JnRepulsionVisit* visit, void* user) {
 	self->touching = 0;
 	JN_TRY(jn_repulsion_visit_points(self, x, visit, user));

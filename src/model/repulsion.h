@@ -28,6 +28,9 @@ typedef struct JnRepulsion JnRepulsion;
 JnStatus jn_repulsion_create(const JnRepulsionDef* def, const JnModelDef* model_def, JnModel* model, JnRepulsion** out);
 void jn_repulsion_destroy(JnRepulsion*);
 
+/// Forget the list of pairs: the next call makes it.
+void jn_repulsion_forget(JnRepulsion*);
+
 /// f += forces at x [N].
 JnStatus jn_repulsion_force(JnRepulsion*, const double* x, double* f);
 

@@ -212,7 +212,7 @@ static JnStatus create_unsymmetric(JnModelSystem* sys) {
 	return jn_solver_unsymmetric.create(NULL, &model->pattern, model->held, model->threads, &sys->unsymmetric);
 }
 
-JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver) {
+static JnStatus create(JnModel* model, const JnVariant* solver) {
 	JnModelSystem* sys;
 	JN_NEW(&model->arena, sys, 1);
 	sys->base.ops = &system_ops;
@@ -236,14 +236,39 @@ JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver) {
 	return JN_OK;
 }
 
+// Its parts take their memory from the model's arena, which is another one meanwhile: they can be freed before the rest.
+JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver) {
+	const JnArena arena = model->arena;
+	model->arena = (JnArena){0};
+	const JnStatus status = create(model, solver);
+	model->system_arena = model->arena;
+	model->arena = arena;
+	return status;
+}
+
 void jn_model_system_destroy(JnModel* model) {
 	JnModelSystem* sys = of(model->system);
-	if (sys == NULL) return;
-	if (sys->solver != NULL) sys->solver->type->destroy(sys->solver);
-	if (sys->unsymmetric != NULL) sys->unsymmetric->type->destroy(sys->unsymmetric);
-	jn_stiffness_destroy(sys);
-	jn_host_space_destroy(sys->base.space);
+	if (sys != NULL) {
+		if (sys->solver != NULL) sys->solver->type->destroy(sys->solver);
+		if (sys->unsymmetric != NULL) sys->unsymmetric->type->destroy(sys->unsymmetric);
+		jn_stiffness_destroy(sys);
+		jn_host_space_destroy(sys->base.space);
+	}
 	model->system = NULL;
+	jn_arena_free(&model->system_arena);
+}
+
+// What is kept by stamps that the old space has handed out is forgotten too.
+JnStatus jn_model_system_renew(JnModel* model, const JnVariant* solver) {
+	jn_model_system_destroy(model);
+	if (model->repulsion != NULL) jn_repulsion_forget(model->repulsion);
+	if (model->wind != NULL) model->wind->stamp = 0;
+	return jn_model_system_create(model, solver);
+}
+
+void jn_system_archive(JnSystem* sys, JnArchive* archive) {
+	jn_archive_real(archive, "force_scale", &sys->force_scale);
+	jn_archive_real(archive, "force_floor", &sys->force_floor);
 }
 
 void jn_model_inputs_begin(JnModel* model, double t, double dt) {

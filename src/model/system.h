@@ -77,6 +77,13 @@ struct JnModelSystem {
 JnStatus jn_model_system_create(JnModel* model, const JnVariant* solver);
 void jn_model_system_destroy(JnModel* model);
 
+/// Build it anew, as if nothing had been computed with it: without tangents, factors and whatever solvers have learned. Its
+/// space is another one, which hands out stamps of its own.
+JnStatus jn_model_system_renew(JnModel* model, const JnVariant* solver);
+
+/// Write or read by what residuals are judged.
+void jn_system_archive(JnSystem* sys, JnArchive* archive);
+
 /// Let `load`, 3 * nodes [N], act on the nodes until `who` changes it or takes it away (NULL). It is borrowed, and must be
 /// constant while a step is computed.
 void jn_model_system_set_load(JnModel* model, JnLoadOf who, const double* load);

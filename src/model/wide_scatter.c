@@ -133,28 +133,40 @@ static void scatter_forces(const JnGroup* group, int first, int last, const doub
 		scatter_with(group, first, last, buffer, scale, range, f, false);
 }
 
-// Node i of a pair of batches: three registers are turned into a row of four a lane. Lanes of padding add zeros.
-INLINE void add_rows(const float* element, const int* first, const int* second, float scale, JnNodeRange range,
-					 float* f, bool is_all) {
-	WideFloat row[4] = {{0}};
-	JN_UNROLL for (int a = 0; a < 3; ++a) row[a] = scale * wide_float_load(element + a * JN_WIDE_FLOATS);
-	wide_float_transpose(row);
-	JN_UNROLL for (int lane = 0; lane < JN_WIDE_FLOATS; ++lane) {
-		const int node = lane < JN_WIDE ? first[lane] : second[lane - JN_WIDE];
-		if (!is_all && (node < range.low || node >= range.high)) continue;
-		float* to = f + 4 * (ptrdiff_t)node;
-		four_floats_store(to, four_floats_load(to) + wide_float_quarter(row[lane % 4], lane / 4));
+// Four lanes of node i of a pair of batches: three registers are turned into a row of four a lane. Lanes of padding add zeros.
+INLINE void add_rows(const float* element, const int* at, float scale, JnNodeRange range, float* f, bool is_all) {
+	const FourFloats x = scale * four_floats_load(element), y = scale * four_floats_load(element + JN_WIDE_FLOATS),
+					 z = scale * four_floats_load(element + 2 * JN_WIDE_FLOATS), none = {0};
+	const FourFloats xy = __builtin_shufflevector(x, y, 0, 4, 1, 5),
+					 xy_high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
+	const FourFloats z0 = __builtin_shufflevector(z, none, 0, 4, 1, 5),
+					 z0_high = __builtin_shufflevector(z, none, 2, 6, 3, 7);
+	const FourFloats row[4] = {__builtin_shufflevector(xy, z0, 0, 1, 4, 5), __builtin_shufflevector(xy, z0, 2, 3, 6, 7),
+							   __builtin_shufflevector(xy_high, z0_high, 0, 1, 4, 5),
+							   __builtin_shufflevector(xy_high, z0_high, 2, 3, 6, 7)};
+	JN_UNROLL for (int lane = 0; lane < 4; ++lane) {
+		if (!is_all && (at[lane] < range.low || at[lane] >= range.high)) continue;
+		float* to = f + 4 * (ptrdiff_t)at[lane];
+		four_floats_store(to, four_floats_load(to) + row[lane]);
 	}
 }
 
+// Elements by fours, whatever the width: the order of sums, and so the last bits, do not depend on it.
 INLINE void add_all_rows(const JnGroup* group, int first, int last, const float* buffer, float scale, JnNodeRange range,
 						 float* f, bool is_all) {
 	const int nodes = group->kernel->nodes;
-	for (int batch = first; batch < last; batch += 2) {
-		const int* at = group->nodes + (ptrdiff_t)batch * nodes * JN_WIDE;
-		const int* second = batch + 1 < group->batches ? at + nodes * JN_WIDE : at;
-		for (int i = 0; i < nodes; ++i, buffer += 3 * JN_WIDE_FLOATS)
-			add_rows(buffer, at + i * JN_WIDE, second + i * JN_WIDE, scale, range, f, is_all);
+	for (int batch = first; batch < last; batch += 2, buffer += 3 * nodes * JN_WIDE_FLOATS) {
+		const int* here = group->nodes + (ptrdiff_t)batch * nodes * JN_WIDE;
+		const int* second = batch + 1 < group->batches ? here + nodes * JN_WIDE : here;
+		for (int lane = 0; lane < JN_WIDE_FLOATS; lane += 4)
+			for (int i = 0; i < nodes; ++i) {
+				int at[4];
+				JN_UNROLL for (int k = 0; k < 4; ++k) {
+					const int l = lane + k;
+					at[k] = l < JN_WIDE ? here[i * JN_WIDE + l] : second[i * JN_WIDE + l - JN_WIDE];
+				}
+				add_rows(buffer + 3 * i * JN_WIDE_FLOATS + lane, at, scale, range, f, is_all);
+			}
 	}
 }
 

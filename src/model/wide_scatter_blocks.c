@@ -134,13 +134,17 @@ INLINE void add_triangles(const double* from, const int* nodes, int lanes, doubl
 
 JnScatterTriangles JOIN(jn_scatter_triangles_, JN_WIDE);
 
+// Elements by fours, whatever the width, so that the order of sums does not depend on it.
 void JOIN(jn_scatter_triangles_, JN_WIDE)(const JnGroup* group, int first, int last, const double* buffer,
 										  double weight, JnNodeRange range, double* blocks) {
-	const int* nodes = group->nodes + (ptrdiff_t)first * group->kernel->nodes * JN_WIDE;
-	for (int batch = first; batch < last; ++batch) {
-		const int lanes = lanes_in(group, batch);
-		for (int i = 0; i < group->kernel->nodes; ++i, buffer += 6 * JN_WIDE, nodes += JN_WIDE)
-			for (int from = 0; from < lanes; from += LANES)
-				add_triangles(buffer + from, nodes + from, lanes - from, weight, range, blocks);
-	}
+	enum { BATCHES = 4 / LANES };
+	const ptrdiff_t nodes = group->kernel->nodes;
+	for (int batch = first; batch < last; batch += BATCHES)
+		for (int from = 0; from < JN_WIDE; from += LANES)
+			for (int i = 0; i < nodes; ++i)
+				for (int b = batch; b < batch + BATCHES && b < last; ++b) {
+					const int* at = group->nodes + (b * nodes + i) * JN_WIDE + from;
+					const double* triangles = buffer + ((b - first) * nodes + i) * 6 * JN_WIDE + from;
+					add_triangles(triangles, at, lanes_in(group, b) - from, weight, range, blocks);
+				}
 }

@@ -21,7 +21,7 @@ JnStatus jn_block_begin(JnBlockFactor* f, int count) {
 	f->start = f->first + n + 1;
 	f->meets = (unsigned*)f->bits.at;
 	_Static_assert(sizeof(size_t) == sizeof(double), "offsets share the memory of numbers");
-	f->diagonal = (size_t*)f->offsets.at;
+	f->diagonal = (void*)f->offsets.at;
 	f->below = f->diagonal + n;
 	f->beside = f->below + n;
 	memset(f->size, 0, n * sizeof *f->size);

@@ -171,7 +171,7 @@ static JnOperator operator_of(Cg* cg) {
 	if (has_products(cg)) return cg->attached;
 	return (JnOperator){.user = cg,
 						.apply = multiply_blocks,
-						.apply_single = multiply_single,
+						.apply_single = cg->refine.is_double ? NULL : multiply_single,
 						.diagonal = diagonal_of_blocks,
 						.blocks = all_blocks,
 						.positions = cg->attached.positions != NULL ? positions_of_attached : NULL,

@@ -279,7 +279,7 @@ static JnStatus analyse(Direct* direct, int ordering, const bool* held) {
 	free(place);
 	if (direct->symbolic == NULL || direct->rhs == NULL)
 		return jn_error(JN_OUT_OF_MEMORY,
-						"the sparse Cholesky analysis of %d nodes failed (CHOLMOD status %d); the matrix does not fit",
+						"out of memory: the sparse Cholesky analysis of %d nodes failed (CHOLMOD status %d)",
 						direct->free_nodes, common->status);
 	if (direct->single_solve != NULL && prepare_single(direct) != JN_OK)
 		return jn_error(JN_OUT_OF_MEMORY, "out of memory: solver");
@@ -305,7 +305,9 @@ static JnStatus create(const void* options, const JnPattern* pattern, const bool
 	direct->common.print = 0;
 	direct->common.try_catch = 1;
 	JnStatus status = JN_OUT_OF_MEMORY;
-	if (direct->free_index != NULL && direct->position != NULL) {
+	if (direct->free_index == NULL || direct->position == NULL) {
+		jn_error(status, "out of memory: direct solver of %d nodes", pattern->nodes);
+	} else {
 		number_free_nodes(direct, held);
 		const Quiet quiet = quiet_begin();
 		status = analyse(direct, ((const JnDirectDef*)options)->ordering, held);

@@ -17,6 +17,7 @@ static const double margin = 1.1;
 void jn_grid_multiply(const JnMultigrid* grid, int slot, int at, const float* x, float* y) {
 	const JnOperator* matrices = grid->matrices;
 	if (at > 0)
+		// cppcheck-suppress arrayIndexOutOfBoundsCond // is below grid->used
 		grid->kernels->multiply(&grid->levels[at], x, y, grid->threads);
 	else if (matrices->apply_single != NULL)
 		matrices->apply_single(matrices->user, slot, x, y);

@@ -75,6 +75,20 @@ static JnStatus fill(const RodDef* def, const JnMesh* mesh, int first_node, JnAr
 	return jn_thread_add_end(mesh, side_k, first_node, def->damping, arena, out);
 }
 
+// A cell without volume has no share of it to keep.
+static JnStatus check_cells(const JnMesh* mesh, const char* what) {
+	const double radius = mesh->thread->radius;
+	for (int link = 0; link < jn_thread_links(mesh->thread); ++link)
+		for (int i = JN_LINK_CELLS * link; i < JN_LINK_CELLS * (link + 1); ++i)
+			if (fabs(jn_mesh_cell_volume(mesh, i)) < 1e-6 * radius * radius * jn_link_length(mesh, link))
+				return jn_error(
+					JN_BAD_INPUT,
+					"%s.shape: link %d turns or bends so far from frame to frame that a cell of it is flat; use "
+					"more links, or less twist",
+					what, link);
+	return JN_OK;
+}
+
 static JnStatus check(const JnLaw* law, const JnMesh* mesh, const char* what) {
 	const JnThread* thread = mesh->thread;
 	if (thread == NULL)
@@ -85,7 +99,7 @@ static JnStatus check(const JnLaw* law, const JnMesh* mesh, const char* what) {
 			return jn_error(JN_BAD_INPUT,
 							"%s.shape.section: '%s' needs frames about the axis of the thread; use centred", what,
 							law->row.name);
-	return JN_OK;
+	return check_cells(mesh, what);
 }
 
 static JnStatus build(const JnLaw* law, const void* options, const JnMesh* mesh, int first_node, const char* what,

@@ -41,7 +41,7 @@ typedef struct Volume {
 
 JN_INLINE void volume_load(const double* rest, Wide edges[][3], Volume* v) {
 	JN_UNROLL for (int i = 0; i < 3; i++) {
-		wide_cross(edges[(i + 1) % 3], edges[(i + 2) % 3], v->g[i]);
+		wide_cross(edges[(i + 1) % 3], edges[(i + 2) % 3], v->g[i]); // cppcheck-suppress uninitvar // is written here
 		JN_UNROLL for (int a = 0; a < 3; a++) v->d[i][a] = edges[i][a];
 	}
 	const Wide rest_volume = wide_load(rest + VOLUME_REST * JN_WIDE);

@@ -143,7 +143,7 @@ static JnStatus read_compressed(const JnVtuFile* file, Source* source, JnArena* 
 
 static JnStatus decode(const JnVtuFile* file, Source* source, const JnVtkType* type, JnVtkAs as, JnArena* arena,
 					   JnVtkNumbers* out) {
-	Bytes bytes;
+	Bytes bytes = {0};
 	JN_TRY((file->is_compressed ? read_compressed : read_plain)(file, source, arena, &bytes));
 	return jn_vtk_from_bytes(bytes.data, bytes.size, type, file->is_big_endian, as, arena, out);
 }

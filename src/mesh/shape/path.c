@@ -98,7 +98,7 @@ static double station_length(const JnPath* path, int count, double k) {
 }
 
 static JnStation station_at(const JnPath* path, double s) {
-	JnStation station;
+	JnStation station = {0};
 	jn_path_place(path, s, station.X, station.along);
 	return station;
 }

@@ -35,6 +35,19 @@ static double extent(int count, const double* points) {
 	return fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
 }
 
+// Far away few digits of a mesh are left: edges cannot be halved any more, and cells are flat.
+static JnStatus check_digits(const char* what, int count, const double* points) {
+	static const double most = 1e8; // of the size, which leaves eight digits
+	const double size = extent(count, points);
+	double farthest = 0;
+	for (ptrdiff_t i = 0; i < 3 * (ptrdiff_t)count; i++) farthest = fmax(farthest, fabs(points[i]));
+	if (!(size > 0) || farthest <= most * size) return JN_OK;
+	return jn_error(JN_BAD_INPUT,
+					"%s.translate: a mesh of %g m would lie %g m from the origin, where too few digits of it are left; "
+					"bring it nearer, within %g m",
+					what, size, farthest, most * size);
+}
+
 JnStatus jn_placement_apply(const JnPlacementDef* def, const char* what, int count, double* points) {
 	for (ptrdiff_t i = 0; i < count; i++) {
 		double* x = points + 3 * i;
@@ -54,5 +67,5 @@ JnStatus jn_placement_apply(const JnPlacementDef* def, const char* what, int cou
 		if (isfinite(points[i])) continue;
 		return jn_error(JN_BAD_INPUT, "%s: node %td is not at a finite place; use a smaller scale", what, i / 3);
 	}
-	return JN_OK;
+	return check_digits(what, count, points);
 }

@@ -53,7 +53,8 @@ typedef struct JnPlacementDef {
 
 extern const char* const jn_placement_axes[]; ///< names of JnPlacementDef.up
 
-/// Move points[3 * count]. JN_BAD_INPUT, after a message, when all lie at one place and `fit` is asked for.
+/// Move points[3 * count]. JN_BAD_INPUT, after a message, when all lie at one place and `fit` is asked for, and
+/// where they end up so far away that their digits do not suffice.
 JnStatus jn_placement_apply(const JnPlacementDef* def, const char* what, int count, double* points);
 
 #endif

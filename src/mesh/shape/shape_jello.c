@@ -60,6 +60,16 @@ static void place_rim(const JnBlock* block, const int at[3], double X[3]) {
 	X[1] -= def->plate_thickness * at[2] / block->cells[2];
 }
 
+static const double most_rim_cells = 1000; // along the radius of the plate
+
+static double cell_width(const JelloDef* def) {
+	return 6.28 * def->radius / def->cells[0];
+}
+
+static double rim_cells(const JelloDef* def) {
+	return fmax(1, round((def->plate_radius - def->radius) / (2 * cell_width(def))));
+}
+
 static JnStatus check(const JelloDef* def, const char* what) {
 	JN_TRY(jn_disk_check(def->cells[0], what));
 	const double foot = def->radius * (1 + def->flute_depth);
@@ -67,14 +77,19 @@ static JnStatus check(const JelloDef* def, const char* what) {
 		return jn_error(JN_BAD_INPUT,
 						"%s.plate_radius: %g m does not reach beyond the foot of the jello; use more than %g m", what,
 						def->plate_radius, foot);
+	if (rim_cells(def) > most_rim_cells)
+		return jn_error(
+			JN_BAD_INPUT,
+			"%s.plate_radius: %g m is %.3g cells beyond the jello, of the size of those at its foot; use %g m "
+			"or less",
+			what, def->plate_radius, rim_cells(def), def->radius + 2 * most_rim_cells * cell_width(def));
 	if (def->flute_depth == 0 || def->cells[0] >= 4 * def->flutes) return JN_OK;
 	return jn_error(JN_BAD_INPUT, "%s.cells[0]: %d cells around cannot show %d flutes; use %d or more", what,
 					def->cells[0], def->flutes, 4 * def->flutes);
 }
 
 static void fill_blocks(const JelloDef* def, JnBlock blocks[JELLO_BLOCKS]) {
-	const double width = 6.28 * def->radius / def->cells[0];
-	const int outer = (int)fmax(1, round((def->plate_radius - def->radius) / (2 * width)));
+	const int outer = (int)rim_cells(def);
 	for (int i = 0; i < JELLO_BLOCKS; ++i) {
 		const bool is_jello = i < JN_DISK_PATCHES, is_rim = i >= 2 * JN_DISK_PATCHES;
 		JnBlock* block = &blocks[i];

@@ -96,6 +96,12 @@ static JnStatus check_bends(const ThreadDef* def, const JnThread* thread, const 
 	for (int link = 0; link < jn_thread_links(thread); ++link) {
 		const JnStation *a = &stations[link], *b = &stations[jn_thread_end(thread, link)];
 		const double chord = vec3_distance(a->X, b->X), angle = vec3_distance(a->along, b->along);
+		if (!isfinite(chord + angle))
+			return jn_error(
+				JN_BAD_INPUT,
+				"%s: the curve has no direction at link %d of %d: points fall together, or sizes of its parts lie "
+				"too far apart; use less extreme ones",
+				what, link, jn_thread_links(thread));
 		if (def->radius * angle < 0.9 * chord) continue;
 		return jn_error(JN_BAD_INPUT,
 						"%s: near [%g, %g, %g] m the curve bends with a radius of %g m, too sharply for a thread of "
