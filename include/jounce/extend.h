@@ -4,6 +4,7 @@
 #ifndef JOUNCE_EXTEND_H
 #define JOUNCE_EXTEND_H
 
+#include "jounce/archive.h"
 #include "jounce/base.h"
 
 #ifdef __cplusplus
@@ -238,11 +239,12 @@ typedef struct JnIntegratorType {
 	bool overshoots;
 	bool keeps_tangent; ///< after a step, the system's K and D are those of its start: linearised methods
 	int vectors;        ///< work vectors that a step needs
-	size_t memory_size; ///< bytes of JnIntegrator.memory; zero at the start and after a reset
+	size_t memory_size; ///< bytes of JnIntegrator.memory, without pointers; zero at the start and after a reset
 	const void* table;  ///< coefficients, in the family's own form
 	/// What follows from the coefficients; NULL: jn_integrator_properties measures on an oscillator instead.
 	void (*properties)(const void* table, struct JnTableauProperties* out);
-	JnStatus (*step)(JnIntegrator*, JnStep*);     ///< pure: the same start gives the same end
+	/// Pure: the same start gives the same end. JN_NOT_FINITE where a position or velocity of the end is not finite.
+	JnStatus (*step)(JnIntegrator*, JnStep*);
 	void (*commit)(JnIntegrator*, const JnStep*); ///< keep history; NULL for one-step methods
 	/// Newmark's beta, and where the accelerations at the start and at the end of the last step are; NULL: no such method.
 	double (*newmark_beta)(const JnIntegrator*, const double** a0, const double** a1);
@@ -327,6 +329,8 @@ typedef struct JnControllerType {
 	/// Sees failed attempts too. May edit the end. JN_RUN_FAILED: the attempt is refused and no smaller one is allowed.
 	JnStatus (*judge)(JnController*, JnStep*, JnStatus outcome, JnVerdict*);
 	void (*explain)(const JnController*, JnComplaint*); ///< the last JN_RUN_FAILED; NULL: there is nothing to say
+	/// Write or read what survives from attempt to attempt; NULL: it is `memory`, which then holds no pointers, and `vectors`.
+	void (*archive)(JnController*, JnArchive*);
 } JnControllerType;
 
 struct JnController {
@@ -379,6 +383,9 @@ typedef struct JnPassType {
 	void (*react)(const JnPass*, double* force);
 	/// Why the last attempt failed in this pass: a clause for a message, or "". At most `size` bytes.
 	void (*explain)(const JnPass*, size_t size, char* text);
+	/// Write or read what the next step and the recording of the last one depend on. What can be found again from the model
+	/// and the state need not be there. NULL: nothing does.
+	void (*archive)(JnPass*, JnArchive*);
 	int column_count;
 	const JnPassColumn* columns;
 	void (*measure)(const JnPass*, double* values); ///< one a column, of the last accepted step

@@ -24,6 +24,13 @@ typedef struct JnRecordDef {
 	bool plots;       ///< draw plots/ at the end
 } JnRecordDef;
 
+/// When a run saves its state, to be resumed from (docs/checkpoints.md).
+typedef struct JnCheckpointDef {
+	double
+		every; ///< simulated time between saved states [s]; 0: after a number of steps that the size of the model decides
+	int keep; ///< files that stay
+} JnCheckpointDef;
+
 /// All that a scene file says.
 typedef struct JnSceneDef {
 	const char* name;
@@ -31,6 +38,7 @@ typedef struct JnSceneDef {
 	JnSimDef sim;
 	JnItems probes; ///< JnProbeDef
 	JnRecordDef record;
+	JnCheckpointDef checkpoint;
 } JnSceneDef;
 
 extern const JnKey jn_scene_keys[]; ///< the keys at the root of a scene file, of JnSceneDef
@@ -84,11 +92,13 @@ typedef struct JnRunOptions {
 /// What a run came to.
 typedef struct JnRunResult {
 	bool was_stopped;
+	long resumed_at; ///< steps that an earlier run had done
 	long steps, frames, rejected, newton, factorizations, solves, iterations;
-	long served[JN_WAY_COUNT]; ///< solves by their way
-	long changes;              ///< from one way to another
-	double t, wall_seconds;
-	double specific_error; ///< at the end [J/kg]
+	long served[JN_WAY_COUNT];     ///< solves by their way
+	long changes;                  ///< from one way to another
+	double t, t_end, wall_seconds; ///< reached and wanted; spent
+	bool has_plots;                ///< they were asked for
+	double specific_error;         ///< at the end [J/kg]
 	int nodes, elements;
 	JnPaceReport pace; ///< of runs that wait for the clock; speed 0: this one did not
 } JnRunResult;
@@ -96,6 +106,19 @@ typedef struct JnRunResult {
 /// Simulate a scene and record it. JN_RUN_FAILED: the last good state is on disk. `result` is filled as far as the run
 /// came, also on failure.
 JnStatus jn_scene_run(const JnScene* scene, const JnRunOptions* options, JnRunResult* result);
+
+/// How to resume.
+typedef struct JnResumeOptions {
+	JnRunOptions run;  ///< directory: of the run
+	const char* from;  ///< the checkpoint file; NULL: the newest from which the bits are those of a run without a break
+	bool takes_latest; ///< without `from`: the newest of all; motion agrees to the accuracy of solvers
+	int set_count;
+	const char* const* sets; ///< further overrides, such as a smaller step; the nodes, method and controller must stay
+} JnResumeOptions;
+
+/// Go on with a run that was interrupted, killed, or has failed, in its folder. JN_BAD_INPUT after a message when there is
+/// nothing to go on from, or when that is damaged; nothing is changed then.
+JnStatus jn_scene_resume(const JnResumeOptions* options, JnRunResult* result);
 
 #ifdef __cplusplus
 }

@@ -68,6 +68,12 @@ typedef struct JnRelaxDef {
 	int order;         ///< 0 before contact; 1 after it
 } JnRelaxDef;
 
+/// When the energy of a run is suspect (docs/failures.md).
+typedef struct JnWatchDef {
+	double energy; ///< share of the largest kinetic and elastic energy; a larger gain from nowhere warns; 0: no watch
+	double stop;   ///< multiple of it at which the run ends
+} JnWatchDef;
+
 typedef struct JnSimDef {
 	JnModelDef model;
 	JnVariant system;          ///< row of jn_system_list, simulated in place of a model; row NULL: none
@@ -80,6 +86,7 @@ typedef struct JnSimDef {
 	JnNewtonDef newton;
 	JnVariant step;  ///< row of the controller list
 	double duration; ///< simulated time [s]
+	JnWatchDef watch;
 } JnSimDef;
 
 typedef struct JnSim JnSim;
@@ -112,6 +119,11 @@ JnModel* jn_sim_model(JnSim* sim); ///< NULL for a built-in system, and for one 
 JnEnergies jn_sim_energies(JnSim* sim);
 double jn_sim_mass(const JnSim* sim);
 
+/// Compare the energies of the present state with what the run should have: call it after every step, and once before the
+/// first. Warns once of energy that comes from nowhere; JN_RUN_FAILED after a message when it is out of all proportion
+/// (`watch` in a scene). Driven nodes and wind cost the forces of the state; all else is free.
+JnStatus jn_sim_watch(JnSim* sim, const JnEnergies* energies);
+
 JnSystem* jn_sim_system(JnSim* sim); ///< what is stepped
 const JnState* jn_sim_state(const JnSim* sim);
 
@@ -141,6 +153,23 @@ double jn_sim_last_dt(const JnSim* sim);              ///< size of the last acce
 double jn_sim_next_dt(const JnSim* sim);              ///< size of the next attempt, if nothing ends it earlier [s]
 const JnReport* jn_sim_last_report(const JnSim* sim); ///< cost of the last step, its rejected attempts included
 int jn_sim_threads(const JnSim* sim);
+
+/// Save the state, and all that the following steps depend on: history of the method and of the controller, impulses of
+/// contacts, broken bonds. Then the simulation goes on exactly as one that is restored from what was saved, bit by bit: it
+/// forgets factors and other things that only save time (jn_sim_restore). `archive` is empty, or holds pieces of the caller's
+/// own. What jn_sim_system and jn_sim_passes gave before is invalid afterwards, as are vectors of the system's space.
+JnStatus jn_sim_save(JnSim* sim, JnArchive* archive);
+
+/// The same without the second half: the simulation is not changed. One that is restored from it follows the same motion to the
+/// accuracy of solvers, and bit by bit where nothing is kept from step to step.
+JnStatus jn_sim_snapshot(JnSim* sim, JnArchive* archive);
+
+/// Go on from what was saved of a simulation of the same definition. JN_BAD_INPUT, after a message, for what is of another
+/// one, or damaged: the simulation can then only be destroyed. As after jn_sim_save, what others hold of its parts is invalid.
+JnStatus jn_sim_restore(JnSim* sim, JnArchive* archive);
+
+/// Let the next attempt have the controller's first size: for one that was restored with other settings of its controller.
+void jn_sim_restart_step(JnSim* sim);
 
 /// The passes that run, in order; *count of them.
 JnPass* const* jn_sim_passes(const JnSim* sim, int* count);

@@ -92,6 +92,11 @@ static const JnKey keys[] = {
 	{0},
 };
 
+static void archive_rules(JnController* self, JnArchive* archive) {
+	CombinedMemory* memory = self->memory;
+	for (int i = 0; i < count_of(self); ++i) jn_controller_archive(memory->rules[i], archive);
+}
+
 const JnControllerType jn_controller_combined = {
 	.row = {.name = "combined",
 			.doc = "several controllers: a step is accepted if all accept it, and the smallest size wanted comes next",
@@ -105,4 +110,5 @@ const JnControllerType jn_controller_combined = {
 	.prepare = prepare,
 	.judge = judge,
 	.explain = explain,
+	.archive = archive_rules,
 };

@@ -54,3 +54,13 @@ void jn_controller_explain(const JnController* self, JnComplaint* complaint) {
 	*complaint = (JnComplaint){0};
 	if (self->type->explain != NULL) self->type->explain(self, complaint);
 }
+
+void jn_controller_archive(JnController* self, JnArchive* archive) {
+	if (self->type->archive != NULL) {
+		self->type->archive(self, archive);
+		return;
+	}
+	jn_archive_bytes(archive, self->type->row.name, self->memory, self->type->memory_size);
+	for (int i = 0; i < self->type->vectors; ++i)
+		jn_archive_reals(archive, "vector", self->vectors[i], self->sys->space->length);
+}

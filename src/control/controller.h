@@ -17,6 +17,9 @@ void jn_controller_destroy(JnController* controller);
 /// Call before every attempt, when what acts on the step is known.
 JnStatus jn_controller_prepare(JnController* controller, const JnStep* step);
 
+/// Write or read what the controller remembers.
+void jn_controller_archive(JnController* controller, JnArchive* archive);
+
 /// What the last refusal was about, when JN_RUN_FAILED came of it.
 void jn_controller_explain(const JnController* controller, JnComplaint* complaint);
 

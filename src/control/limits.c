@@ -42,7 +42,7 @@ void jn_limits_explain(const JnController* controller, const JnStepLimits* limit
 	const char* path = controller->path;
 	const bool is_measured = error > tolerance;
 	if (is_measured)
-		snprintf(out->cause, sizeof out->cause, "the %s of %.3g m is above %s.tolerance, %.3g m,", what, error, path,
+		snprintf(out->cause, sizeof out->cause, "the %s of %.3g m is above %s.tolerance, %.3g m", what, error, path,
 				 tolerance);
 	snprintf(out->limit, sizeof out->limit, "%s.dt_min = %.3g s", path, limits->dt_min);
 	snprintf(out->remedy, sizeof out->remedy, "a smaller %s.dt_min, %s%s%sa more robust method (backward_euler)", path,

@@ -20,7 +20,7 @@ extern const JnKey jn_pi_keys[]; ///< of JnPiDef
 typedef struct JnPiMemory {
 	double error, allowed; ///< of the last attempt [m]; NAN: it failed before
 	double previous;       ///< r of the last accepted step; 0: none yet
-	bool was_refused;      ///< the attempt before
+	int was_refused;       ///< the attempt before; 0: it was not
 } JnPiMemory;
 
 /// An error estimate of order `order` decides. `work` is a vector for the distances moved.

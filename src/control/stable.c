@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "base/log.h"
 #include "base/random.h"
@@ -141,7 +142,14 @@ static JnStatus judge(JnController* self, JnStep* step, JnStatus outcome, JnVerd
 }
 
 static void explain(const JnController* self, JnComplaint* complaint) {
+	const StableMemory* memory = self->memory;
 	jn_limits_explain(self, &((const StableDef*)self->options)->limits, "", NAN, 0, complaint);
+	if (memory->omega == 0) return;
+	snprintf(complaint->cause, sizeof complaint->cause,
+			 "the step is above %.3g s, %s.safety of the largest stable one at a frequency of %.3g rad/s", best(self),
+			 self->path, memory->omega);
+	snprintf(complaint->remedy, sizeof complaint->remedy, "a smaller %s.dt_min, or an implicit method (sdirk2)",
+			 self->path);
 }
 
 static const JnKey keys[] = {

@@ -53,7 +53,7 @@ static void explain(const JnController* self, JnComplaint* out) {
 	const double stretch = ((const StretchLimitMemory*)self->memory)->stretch;
 	jn_limits_explain(self, &def->limits, "", NAN, 0, out);
 	if (isnan(stretch)) return;
-	snprintf(out->cause, sizeof out->cause, "a length changes by %.3g of itself, more than %s.stretch, %.3g,", stretch,
+	snprintf(out->cause, sizeof out->cause, "a length changes by %.3g of itself, more than %s.stretch, %.3g", stretch,
 			 self->path, def->stretch);
 }
 

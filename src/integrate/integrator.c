@@ -40,6 +40,7 @@ JnIntegrator* jn_integrator_create(const JnVariant* choice, const JnNewtonDef* n
 	self->vectors = calloc((size_t)count, sizeof *self->vectors);
 	if (self->type->memory_size > 0) self->memory = calloc(1, self->type->memory_size);
 	bool is_complete = self->vectors != NULL && (self->memory != NULL || self->type->memory_size == 0);
+	if (!is_complete) jn_error(JN_OUT_OF_MEMORY, "out of memory: integrator %s", self->type->row.name);
 	for (int i = 0; is_complete && i < count; ++i) {
 		self->vectors[i] = space->ops->create(space);
 		is_complete = self->vectors[i] != NULL;
@@ -69,6 +70,31 @@ void jn_integrator_reset(JnIntegrator* self) {
 	if (self->memory != NULL) memset(self->memory, 0, self->type->memory_size);
 }
 
+// Solutions that first guesses are made of, the latest first.
+static void archive_recent(JnIntegrator* self, JnArchive* archive) {
+	JnVec* recent = self->vectors + self->type->vectors + JN_STAGE_RECENT;
+	self->recent_count = jn_archive_count(archive, "recent", self->recent_count, 0);
+	if (self->recent_count > JN_RECENT_COUNT) {
+		self->recent_count = 0;
+		jn_archive_refuse(archive, "recent", "is more than there can be");
+	}
+	for (int i = 0; i < self->recent_count; ++i)
+		jn_archive_reals(archive, "acceleration", recent[i], self->space->length);
+	jn_archive_reals(archive, "recent_t", self->recent_t, JN_RECENT_COUNT);
+	jn_archive_reals(archive, "recent_dot", self->recent_dot[0], (size_t)JN_RECENT_COUNT * JN_RECENT_COUNT);
+	jn_archive_reals(archive, "guess_error", self->guess_error, sizeof self->guess_error / sizeof *self->guess_error);
+	jn_archive_real(archive, "curvature", &self->curvature);
+}
+
+void jn_integrator_archive(JnIntegrator* self, JnArchive* archive) {
+	const bool has_history = self->memory != NULL;
+	if (has_history) jn_archive_bytes(archive, "history", self->memory, self->type->memory_size);
+	for (int i = 0; has_history && i < self->type->vectors; ++i)
+		jn_archive_reals(archive, "vector", self->vectors[i], self->space->length);
+	if ((self->type->needs & JN_NEEDS_TANGENT) != 0) archive_recent(self, archive);
+	if (archive->is_reading) self->linearized = 0;
+}
+
 JnStatus jn_acceleration(JnIntegrator* self, JnSystem* sys, JnState* s, JnVec a) {
 	JnSpace* space = sys->space;
 	JnVec* work = self->vectors + self->type->vectors;
@@ -89,6 +115,10 @@ JnStatus jn_acceleration(JnIntegrator* self, JnSystem* sys, JnState* s, JnVec a)
 	JN_TRY(mass->ops->solve(mass, f, free_part));
 	space->ops->combine(space, a, 2, (JnTerm[]){{1, a}, {1, free_part}});
 	return isfinite(space->ops->max(space, a)) ? JN_OK : JN_NOT_FINITE;
+}
+
+const double* jn_integrator_residual(const JnIntegrator* self) {
+	return self->vectors[self->type->vectors + JN_STAGE_RESIDUAL];
 }
 
 JnStatus jn_state_check(JnSpace* space, const JnState* s) {

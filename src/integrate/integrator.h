@@ -23,8 +23,15 @@ void jn_integrator_forget(JnIntegrator* integrator);
 /// solve.
 void jn_integrator_reset(JnIntegrator* integrator);
 
+/// Write or read history: that of multistep methods, and what first guesses and directions have learned. The kept tangent is
+/// not part of it: after reading there is none.
+void jn_integrator_archive(JnIntegrator* integrator, JnArchive* archive);
+
 /// a = M^-1 f(s): the acceleration of a state, held entries as prescribed [m/s^2]. Uses integrator->residual as work.
 JnStatus jn_acceleration(JnIntegrator* integrator, JnSystem* sys, JnState* s, JnVec a);
+
+/// The residual of the equations that the last solve of a stage ended with [N], whether it succeeded or not.
+const double* jn_integrator_residual(const JnIntegrator* integrator);
 
 /// JN_OK, or JN_NOT_FINITE when a position or velocity is infinite or NaN.
 JnStatus jn_state_check(JnSpace* space, const JnState* s);

@@ -22,7 +22,7 @@ typedef struct Weights {
 } Weights;
 
 typedef struct Memory {
-	bool has_acceleration; // vectors[KEPT] belongs to the present start
+	int has_acceleration; // vectors[KEPT] belongs to the present start; 0: it does not
 } Memory;
 
 // x and v of the end without the part of a1.

@@ -123,36 +123,36 @@ static JnStatus many_steps(Oscillator* o, JnAmplification* out) {
 	return JN_OK;
 }
 
-JnAmplification jn_integrator_amplification(const JnIntegratorType* type, double nu, double xi) {
+// NAN when a step fails; JN_OUT_OF_MEMORY is all that it returns beside JN_OK.
+static JnStatus amplify(const JnIntegratorType* type, double nu, double xi, JnAmplification* out) {
 	Oscillator oscillator;
-	JnAmplification out = {NAN, NAN};
 	JnStatus status = oscillator_open(type, nu, xi, &oscillator);
-	if (status == JN_OK) status = type->memory_size > 0 ? many_steps(&oscillator, &out) : one_step(&oscillator, &out);
+	if (status == JN_OK) status = type->memory_size > 0 ? many_steps(&oscillator, out) : one_step(&oscillator, out);
 	oscillator_close(&oscillator);
-	return status == JN_OK ? out : (JnAmplification){NAN, NAN};
+	if (status != JN_OK) *out = (JnAmplification){NAN, NAN};
+	return status == JN_OUT_OF_MEMORY ? status : JN_OK;
 }
 
-static bool is_stable(const JnIntegratorType* type, double nu) {
-	return jn_integrator_amplification(type, nu, 0).radius <= 1 + 1e-9; // NAN is not stable
+JnAmplification jn_integrator_amplification(const JnIntegratorType* type, double nu, double xi) {
+	JnAmplification out;
+	amplify(type, nu, xi, &out);
+	return out;
 }
 
-static double find_limit(const JnIntegratorType* type) {
+static JnStatus narrow(const JnIntegratorType* type, double nu, double xi, double* low, double* high) {
+	JnAmplification at;
+	JN_TRY(amplify(type, nu, xi, &at));
+	*(at.radius <= 1 + 1e-9 ? low : high) = nu; // NAN is not stable
+	return JN_OK;
+}
+
+JnStatus jn_integrator_stability_limit(const JnIntegratorType* type, double xi, double* limit) {
 	double low = 0, high = 0;
-	for (double nu = 1e-2; nu < 1e3 && high == 0; nu *= 1.1) {
-		if (is_stable(type, nu))
-			low = nu;
-		else
-			high = nu;
-	}
-	if (high == 0) return INFINITY;
-	for (int i = 0; i < 40 && low > 0; ++i) {
-		const double middle = 0.5 * (low + high);
-		if (is_stable(type, middle))
-			low = middle;
-		else
-			high = middle;
-	}
-	return low;
+	const double first = xi > 0 ? fmin(1e-2, 0.1 * xi) : 1e-2;
+	for (double nu = first; nu < 1e3 && high == 0; nu *= 1.1) JN_TRY(narrow(type, nu, xi, &low, &high));
+	for (int i = 0; i < 40 && low > 0 && high > 0; ++i) JN_TRY(narrow(type, 0.5 * (low + high), xi, &low, &high));
+	*limit = high == 0 ? INFINITY : low;
+	return JN_OK;
 }
 
 // error = constant nu^(order + 1), from two values of nu; order 0 when there is only rounding.
@@ -164,25 +164,26 @@ static void fit(double coarse, double fine, double nu, int* order, double* const
 		(4 * fine / pow(nu, *order + 1) - coarse / pow(2 * nu, *order + 1)) / 3; // the next term is nu^2 times it
 }
 
-static void measure(const JnIntegratorType* type, JnIntegratorProperties* out) {
+static JnStatus measure(const JnIntegratorType* type, JnIntegratorProperties* out) {
 	const double coarse = 0.2, fine = 0.1;
-	const JnAmplification at_coarse = jn_integrator_amplification(type, coarse, 0);
-	const JnAmplification at_fine = jn_integrator_amplification(type, fine, 0);
+	JnAmplification at_coarse, at_fine, at_infinity = {INFINITY, 0};
+	JN_TRY(amplify(type, coarse, 0, &at_coarse));
+	JN_TRY(amplify(type, fine, 0, &at_fine));
 	fit(1 - at_coarse.radius, 1 - at_fine.radius, fine, &out->dissipation_order, &out->dissipation);
 	fit(coarse - at_coarse.phase, fine - at_fine.phase, fine, &out->dispersion_order, &out->dispersion);
 	out->solves = (type->needs & JN_NEEDS_TANGENT) != 0;
 	out->a_stable = isinf(out->stability_limit) != 0;
-	out->r_infinity = out->a_stable ? jn_integrator_amplification(type, 1e5, 0).radius : INFINITY;
+	if (out->a_stable) JN_TRY(amplify(type, 1e5, 0, &at_infinity));
+	out->r_infinity = at_infinity.radius;
 	out->l_stable = out->a_stable && out->r_infinity < 1e-3;
 	out->is_measured = true;
+	return JN_OK;
 }
 
 JnStatus jn_integrator_properties(const JnIntegratorType* type, JnIntegratorProperties* out) {
-	*out = (JnIntegratorProperties){.order = type->order, .stability_limit = find_limit(type)};
-	if (type->properties == NULL) {
-		measure(type, out);
-		return JN_OK;
-	}
+	*out = (JnIntegratorProperties){.order = type->order};
+	JN_TRY(jn_integrator_stability_limit(type, 0, &out->stability_limit));
+	if (type->properties == NULL) return measure(type, out);
 	JnTableauProperties exact = {0};
 	type->properties(type->table, &exact);
 	out->stages = exact.stages;

@@ -23,6 +23,10 @@ typedef struct JnIntegratorProperties {
 /// Fill `out`. Fails only when memory is out.
 JnStatus jn_integrator_properties(const JnIntegratorType* type, JnIntegratorProperties* out);
 
+/// The largest omega dt at which the method is stable with the damping ratio `xi` >= 0: JnIntegratorProperties.stability_limit
+/// where that is 0. Fails only when memory is out.
+JnStatus jn_integrator_stability_limit(const JnIntegratorType* type, double xi, double* limit);
+
 /// The dominant eigenvalue of one step.
 typedef struct JnAmplification {
 	double radius, phase; ///< phase in radians

@@ -124,7 +124,7 @@ static Stability find_stability(const JnTableau* tableau) {
 		majorant.a[i][i] = -fabs(tableau->a[i][i]);
 		majorant.b[i] = fabs(tableau->b[i]);
 	}
-	Stability r;
+	Stability r = {0};
 	expand(tableau, r.p, r.q);
 	expand(&majorant, r.p_bound, r.q_bound);
 	for (int k = 0; k < COEFFICIENTS; k++)

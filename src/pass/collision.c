@@ -178,6 +178,16 @@ static void react(const JnPass* base, double* force) {
 	for (int k = 0; k < 3 * pass->model->node_count; ++k) force[k] -= pass->load[k];
 }
 
+static void archive_collision(JnPass* base, JnArchive* archive) {
+	JnCollision* pass = of(base);
+	jn_impulses_archive(&pass->kept, archive, pass->model->node_count);
+	jn_archive_switch(archive, "is_loaded", &pass->is_loaded);
+	jn_archive_reals(archive, "load", pass->load, 3 * (size_t)pass->model->node_count);
+	jn_archive_bytes(archive, "collision", &pass->last, sizeof pass->last);
+	jn_archive_real(archive, "work", &pass->total_work);
+	jn_model_system_set_load(pass->model, JN_LOAD_OF_COLLISION, pass->is_loaded ? pass->load : NULL);
+}
+
 static void explain(const JnPass* base, size_t size, char* text) {
 	const JnCollision* pass = (const JnCollision*)base;
 	if (pass->ran_away > 0)
@@ -212,6 +222,7 @@ const JnPassType jn_pass_collision = {
 	.commit = commit,
 	.react = react,
 	.explain = explain,
+	.archive = archive_collision,
 	.column_count = sizeof columns / sizeof *columns,
 	.columns = columns,
 	.measure = measure,

@@ -108,6 +108,14 @@ static void commit(JnPass* base, const JnStep* step) {
 	jn_contact_tally_add(&pass->tally, &pass->total);
 }
 
+static void archive_contact(JnPass* base, JnArchive* archive) {
+	JnContactPass* pass = of(base);
+	jn_contact_rows_archive(&pass->kept, archive);
+	jn_archive_reals(archive, "load", pass->load, jn_contact_entries(pass));
+	jn_archive_reals(archive, "gap", pass->gap, (size_t)pass->model->node_count);
+	jn_archive_bytes(archive, "contact_total", &pass->total, sizeof pass->total);
+}
+
 void jn_contact_observe(JnPass* base, JnContactObserver* observer, void* user) {
 	of(base)->observer = observer;
 	of(base)->observer_user = user;
@@ -126,8 +134,10 @@ static void explain(const JnPass* base, size_t size, char* text) {
 	char why[64];
 	if (pass->passed > 0)
 		snprintf(why, sizeof why, "which it would enter by %.2g m", pass->passed);
-	else
+	else if (isfinite(pass->tally.residual))
 		snprintf(why, sizeof why, "relative residual %.1e", pass->tally.residual);
+	else
+		snprintf(why, sizeof why, "whose impulses are beyond all bounds");
 	snprintf(text, size, " in contact of '%.60s' (near node %d) with '%.60s', %s", pass->model->bodies[skin->body].name,
 			 skin->nodes[(ptrdiff_t)skin->carriers * contact->vertex], name_of(pass, contact), why);
 }
@@ -144,6 +154,7 @@ const JnPassType jn_pass_contact = {
 	.correct = correct,
 	.commit = commit,
 	.explain = explain,
+	.archive = archive_contact,
 	.column_count = JN_CONTACT_COLUMNS,
 	.columns = jn_contact_columns,
 	.measure = jn_contact_measure,

@@ -175,6 +175,9 @@ JnStatus jn_contact_rows_fill(JnContactPass* pass, const JnContactSet* found, co
 /// Begin with the impulses of the same contacts in `old`.
 void jn_contact_rows_warm(JnContactRows* rows, const JnContactRows* old);
 
+/// Write or read what later steps begin with: contacts, frames and impulses.
+void jn_contact_rows_archive(JnContactRows* rows, JnArchive* archive);
+
 void jn_contact_rows_release(JnContactRows* rows);
 
 /// Room for `count` rows with `entries` nodes in all; what was there is lost when it must grow.

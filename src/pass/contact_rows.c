@@ -191,6 +191,19 @@ JnStatus jn_contact_rows_reserve(JnContactRows* rows, int count, int entries) {
 	return jn_grow((void**)&rows->contact, &rows->contact_capacity, n, sizeof *rows->contact);
 }
 
+void jn_contact_rows_archive(JnContactRows* rows, JnArchive* archive) {
+	const size_t each = sizeof *rows->contact + sizeof *rows->frame + sizeof *rows->lambda;
+	const int count = jn_archive_count(archive, "contacts", rows->count, each);
+	const JnStatus status = archive->is_reading ? jn_contact_rows_reserve(rows, count, 0) : JN_OK;
+	if (archive->status == JN_OK) archive->status = status;
+	if (archive->status != JN_OK) return;
+	jn_archive_bytes(archive, "contact", rows->contact, (size_t)count * sizeof *rows->contact);
+	jn_archive_reals(archive, "frame", (double*)rows->frame, 9 * (size_t)count);
+	jn_archive_reals(archive, "lambda", (double*)rows->lambda, 3 * (size_t)count);
+	rows->count = archive->status == JN_OK ? count : 0;
+	for (int i = 0; archive->is_reading && i <= count; ++i) rows->start[i] = 0; // of nodes there are none
+}
+
 void jn_contact_rows_release(JnContactRows* rows) {
 	free(rows->indices.at);
 	free(rows->numbers.at);

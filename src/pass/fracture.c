@@ -139,6 +139,22 @@ static const double* field(const JnPass* base, int index) {
 	return pass->fragments.number;
 }
 
+// Which elements are broken the model remembers: they have no force any more.
+static void archive_fracture(JnPass* base, JnArchive* archive) {
+	Fracture* pass = of(base);
+	const size_t nodes = (size_t)pass->model->node_count;
+	for (int g = 0; g < pass->group_count; ++g)
+		jn_archive_bytes(archive, "is_broken", pass->groups[g].is_broken, (size_t)pass->groups[g].group->count);
+	jn_archive_bytes(archive, "lost", pass->lost, nodes * sizeof *pass->lost);
+	jn_archive_reals(archive, "damage", pass->damage, nodes);
+	jn_archive_bytes(archive, "is_debris", pass->is_debris, nodes * sizeof *pass->is_debris);
+	jn_archive_long(archive, "last_count", &pass->last_count);
+	jn_archive_long(archive, "broken", &pass->count);
+	jn_archive_integer(archive, "damaged", &pass->damaged_count);
+	jn_archive_real(archive, "released", &pass->released);
+	pass->are_fragments_old = true;
+}
+
 static void destroy(JnPass* base) {
 	JnArena arena = of(base)->arena;
 	jn_arena_free(&arena);
@@ -235,6 +251,7 @@ const JnPassType jn_pass_fracture = {
 	.create = create,
 	.destroy = destroy,
 	.commit = commit,
+	.archive = archive_fracture,
 	.column_count = COLUMNS,
 	.columns = columns,
 	.measure = measure,

@@ -1,6 +1,7 @@
 #include "pass/impulses.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,6 +30,37 @@ JnStatus jn_impulses_add(JnImpulses* set, uint64_t id, JnBlockKind kind, int cou
 	set->entry_count += count;
 	*out = block;
 	return JN_OK;
+}
+
+// Member by member, for there is padding between; the numbers from the frame on stand together.
+static void archive_block(JnBlock* block, JnArchive* archive, int entries) {
+	int head[4] = {(int)block->kind, block->is_active, block->first, block->count};
+	jn_archive_bytes(archive, "id", &block->id, sizeof block->id);
+	jn_archive_bytes(archive, "head", head, sizeof head);
+	jn_archive_bytes(archive, "block", block->frame, sizeof *block - offsetof(JnBlock, frame));
+	const bool is_sound = head[2] >= 0 && head[3] >= 0 && head[3] <= entries && head[2] <= entries - head[3];
+	if (!is_sound) jn_archive_refuse(archive, "head", "has more entries than there are");
+	block->kind = (JnBlockKind)head[0];
+	block->is_active = head[1] != 0;
+	block->first = is_sound ? head[2] : 0;
+	block->count = is_sound ? head[3] : 0;
+}
+
+void jn_impulses_archive(JnImpulses* set, JnArchive* archive, int nodes) {
+	const int count = jn_archive_count(archive, "blocks", set->count, sizeof *set->blocks);
+	const int entries = jn_archive_count(archive, "entries", set->entry_count, sizeof *set->entries);
+	const JnStatus status = archive->is_reading ? jn_impulses_reserve(set, count, entries) : JN_OK;
+	if (archive->status == JN_OK) archive->status = status;
+	if (archive->is_reading && status == JN_OK && count > 0) memset(set->blocks, 0, (size_t)count * sizeof *set->blocks);
+	for (int i = 0; i < count && archive->status == JN_OK; ++i) archive_block(&set->blocks[i], archive, entries);
+	for (int k = 0; k < entries && archive->status == JN_OK; ++k) {
+		jn_archive_indices(archive, "node", &set->entries[k].node, 1, 0, nodes);
+		jn_archive_reals(archive, "weight", set->entries[k].weight, 2);
+	}
+	jn_archive_real(archive, "dt", &set->dt);
+	if (!archive->is_reading) return;
+	set->count = archive->status == JN_OK ? count : 0;
+	set->entry_count = archive->status == JN_OK ? entries : 0;
 }
 
 void jn_block_complete_frame(double frame[3][3]) {

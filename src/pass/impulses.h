@@ -55,6 +55,9 @@ JnStatus jn_impulses_reserve(JnImpulses* set, int blocks, int entries);
 /// holds until the next is appended.
 JnStatus jn_impulses_add(JnImpulses* set, uint64_t id, JnBlockKind kind, int count, JnBlock** out);
 
+/// Write or read blocks whose entries are of nodes below `nodes`.
+void jn_impulses_archive(JnImpulses* set, JnArchive* archive, int nodes);
+
 /// Two unit vectors that make a right-handed frame with frame[0].
 void jn_block_complete_frame(double frame[3][3]);
 

@@ -38,6 +38,9 @@ void jn_passes_commit(JnPasses* passes, const JnStep* step);
 /// Add what the passes did to held nodes in the last accepted step, beside the loads of the system [N].
 void jn_passes_react(const JnPasses* passes, double* force);
 
+/// Write or read what the passes remember.
+void jn_passes_archive(JnPasses* passes, JnArchive* archive);
+
 /// The first explanation that a pass has, or "".
 void jn_passes_explain(const JnPasses* passes, size_t size, char* text);
 

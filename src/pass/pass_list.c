@@ -85,6 +85,11 @@ void jn_passes_react(const JnPasses* passes, double* force) {
 		if (passes->list[i]->type->react != NULL) passes->list[i]->type->react(passes->list[i], force);
 }
 
+void jn_passes_archive(JnPasses* passes, JnArchive* archive) {
+	for (int i = 0; i < passes->count; ++i)
+		if (passes->list[i]->type->archive != NULL) passes->list[i]->type->archive(passes->list[i], archive);
+}
+
 void jn_passes_explain(const JnPasses* passes, size_t size, char* text) {
 	text[0] = '\0';
 	for (int i = 0; i < passes->count && text[0] == '\0'; ++i)

@@ -136,6 +136,10 @@ static void measure(const JnPass* base, double* values) {
 	memcpy(values, all, sizeof all);
 }
 
+static void archive_tally(JnPass* base, JnArchive* archive) {
+	jn_archive_bytes(archive, "relax", &of(base)->kept, sizeof of(base)->kept);
+}
+
 static void destroy(JnPass* base) {
 	JnArena arena = of(base)->arena;
 	jn_arena_free(&arena);
@@ -276,7 +280,7 @@ const JnKey jn_relax_keys[] = {
 				.keys = jn_relax_keys,                                                                                 \
 				.options_size = sizeof(JnRelaxDef)},                                                                   \
 		.definition = offsetof(JnSimDef, relax), .create = (creator), .destroy = destroy, .correct = correct,          \
-		.commit = commit, .column_count = COLUMNS, .columns = columns, .measure = measure,                             \
+		.commit = commit, .archive = archive_tally, .column_count = COLUMNS, .columns = columns, .measure = measure,   \
 	}
 
 const JnPassType jn_pass_relax_before = RELAX_TYPE(create_before);

@@ -200,6 +200,24 @@ static JnStatus join(JnPass* base, JnPass* const* others, int count) {
 	return JN_OK;
 }
 
+static void archive_site(const JnSuture* pass, JnArchive* archive, JnSite* site) {
+	jn_archive_integer(archive, "number", &site->number);
+	jn_archive_indices(archive, "triangle", site->nodes, 3, 0, pass->model->node_count);
+	jn_archive_reals(archive, "weights", site->weights, 3);
+	jn_archive_real(archive, "s", &site->s);
+}
+
+static void archive_sites(JnPass* base, JnArchive* archive) {
+	JnSuture* pass = of(base);
+	const int count = jn_archive_count(archive, "sites", pass->count, sizeof *pass->sites);
+	if (count > JN_SITES_MOST) jn_archive_refuse(archive, "sites", "are more than there can be");
+	pass->count = count <= JN_SITES_MOST ? count : 0;
+	for (int i = 0; i < pass->count; ++i) archive_site(pass, archive, &pass->sites[i]);
+	jn_archive_integer(archive, "made", &pass->made);
+	jn_archive_switch(archive, "is_tip_inside", &pass->is_tip_inside);
+	jn_archive_real(archive, "error", &pass->error);
+}
+
 static void destroy(JnPass* base) {
 	JnArena arena = of(base)->arena;
 	jn_arena_free(&arena);
@@ -239,6 +257,7 @@ const JnPassType jn_pass_suture = {
 	.join = join,
 	.destroy = destroy,
 	.commit = commit,
+	.archive = archive_sites,
 	.column_count = sizeof columns / sizeof *columns,
 	.columns = columns,
 	.measure = measure,

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "base/space.h"
 #include "model/model.h"
+#include "model/system.h"
 #include "model/system_list.h"
 #include "sim/sim_keys.h"
 #include "sim/simulation.h"
@@ -23,7 +24,7 @@ static JnStatus create_parts(JnSim* sim) {
 	JN_TRY(jn_controller_create(&def->step, "step", sim->integrator, sim->sys, &sim->controller));
 	sim->stop = INFINITY;
 	sim->next_dt = sim->controller->type->first(sim->controller);
-	return JN_OK;
+	return jn_watch_create(sim);
 }
 
 static JnStatus begin_first_step(JnSim* sim) {
@@ -34,14 +35,20 @@ static JnStatus begin_first_step(JnSim* sim) {
 					jn_status_name(status));
 }
 
+// What a simulation of a model has beside it.
+static JnStatus create_for_model(JnSim* sim) {
+	sim->sys = jn_model_system(sim->model);
+	JN_TRY(create_parts(sim));
+	JN_TRY(jn_passes_create(sim->def, sim->model, &sim->passes));
+	if (sim->model->input_count > 0 && (sim->work[0] = sim->sys->space->ops->create(sim->sys->space)) == NULL)
+		return JN_OUT_OF_MEMORY;
+	return JN_OK;
+}
+
 static JnStatus create_with_model(JnSim* sim, const JnSimDef* def) {
 	sim->def = def;
 	JN_TRY(jn_model_create(&def->model, sim->threads, &sim->model));
-	sim->sys = jn_model_system(sim->model);
-	JN_TRY(create_parts(sim));
-	JN_TRY(jn_passes_create(def, sim->model, &sim->passes));
-	if (sim->model->input_count > 0 && (sim->work[0] = sim->sys->space->ops->create(sim->sys->space)) == NULL)
-		return JN_OUT_OF_MEMORY;
+	JN_TRY(create_for_model(sim));
 	jn_model_start(sim->model, 0, &sim->start);
 	return begin_first_step(sim);
 }
@@ -61,18 +68,22 @@ static JnStatus check_system(const JnSimDef* def) {
 					extra, extra[strlen(extra) - 1] == 's' ? "" : "s", def->system.row->name);
 }
 
+static JnStatus create_for_built_in(JnSim* sim) {
+	JnSpace* space = sim->sys->space;
+	for (int i = 0; i < 2; ++i)
+		if ((sim->work[i] = space->ops->create(space)) == NULL) return JN_OUT_OF_MEMORY;
+	return create_parts(sim);
+}
+
 static JnStatus create_with_built_in(JnSim* sim, const JnSimDef* def) {
 	const JnSystemType* type = (const JnSystemType*)def->system.row;
 	sim->def = def;
 	JN_TRY(check_system(def));
 	JN_TRY(type->create(def->system.options, &sim->built_in));
 	sim->sys = sim->built_in;
-	JnSpace* space = sim->sys->space;
-	for (int i = 0; i < 2; ++i)
-		if ((sim->work[i] = space->ops->create(space)) == NULL) return JN_OUT_OF_MEMORY;
-	JN_TRY(create_parts(sim));
+	JN_TRY(create_for_built_in(sim));
 	type->start(def->system.options, sim->start.x, sim->start.v);
-	jn_state_touch(space, &sim->start);
+	jn_state_touch(sim->sys->space, &sim->start);
 	return begin_first_step(sim);
 }
 
@@ -131,18 +142,37 @@ JnStatus jn_sim_create_for(JnSystem* sys, const char* settings, const double* x,
 	return sim != NULL ? deliver(sim, create_for_system(sim, sys, settings, x, v), out) : JN_OUT_OF_MEMORY;
 }
 
-void jn_sim_destroy(JnSim* sim) {
-	if (sim == NULL) return;
+// All that steps the system, and all vectors of its space.
+static void destroy_parts(JnSim* sim) {
 	jn_passes_destroy(&sim->passes);
 	jn_controller_destroy(sim->controller);
 	jn_integrator_destroy(sim->integrator);
-	for (int i = 0; i < 2 && sim->work[i] != NULL; ++i) sim->sys->space->ops->destroy(sim->sys->space, sim->work[i]);
-	if (sim->sys != NULL) {
-		jn_state_destroy(sim->sys->space, &sim->start);
-		jn_state_destroy(sim->sys->space, &sim->end);
+	sim->controller = NULL;
+	sim->integrator = NULL;
+	for (int i = 0; i < 2 && sim->work[i] != NULL; ++i) {
+		sim->sys->space->ops->destroy(sim->sys->space, sim->work[i]);
+		sim->work[i] = NULL;
 	}
+	if (sim->sys == NULL) return;
+	jn_watch_destroy(sim);
+	jn_state_destroy(sim->sys->space, &sim->start);
+	jn_state_destroy(sim->sys->space, &sim->end);
+}
+
+void jn_sim_destroy(JnSim* sim) {
+	if (sim == NULL) return;
+	destroy_parts(sim);
 	jn_model_destroy(sim->model);
 	jn_user_system_destroy(sim->built_in);
 	jn_arena_free(&sim->arena);
 	free(sim);
+}
+
+// A system of the user's own stays: its stamps go on, so that nothing it knows is taken for what comes.
+JnStatus jn_sim_renew(JnSim* sim) {
+	destroy_parts(sim);
+	if (sim->model == NULL) return sim->built_in != NULL ? create_for_built_in(sim) : create_parts(sim);
+	sim->sys = NULL; // until there is one again
+	JN_TRY(jn_model_system_renew(sim->model, &sim->def->model.solver));
+	return create_for_model(sim);
 }

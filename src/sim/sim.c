@@ -7,30 +7,16 @@
 
 #include <math.h>
 
-#include "base/log.h"
 #include "base/report.h"
 #include "base/timer.h"
 #include "model/system.h"
+#include "sim/diagnose.h"
 #include "sim/simulation.h"
 
 // The last step ends on the duration; a difference that is only rounding leaves the step as it is.
 static double clip(const JnSim* sim, double dt) {
 	const double left = fmin(sim->def->duration, sim->stop) - sim->start.t;
 	return left < dt * (1 - 1e-9) ? left : dt;
-}
-
-static JnStatus explain_failure(const JnSim* sim, const JnStep* step, JnStatus outcome) {
-	char reason[256];
-	JnComplaint complaint;
-	jn_passes_explain(&sim->passes, sizeof reason, reason);
-	jn_controller_explain(sim->controller, &complaint);
-	const bool has_limit = complaint.limit[0] != '\0';
-	return jn_error(
-		JN_RUN_FAILED,
-		"step %ld at t = %.9g s failed: %s%s with dt = %.3g s, the smallest step allowed%s%s%s; the last good "
-		"state is at t = %.9g s. Try %s",
-		sim->steps + 1, sim->start.t, outcome != JN_OK ? jn_status_name(outcome) : complaint.cause, reason, step->dt,
-		has_limit ? " (" : "", complaint.limit, has_limit ? ")" : "", sim->start.t, complaint.remedy);
 }
 
 // Predict and correct, in as many rounds as the passes ask for. step->is_edited: the end is no longer the integrator's.
@@ -48,7 +34,7 @@ static JnStatus attempt(JnSim* sim, JnStep* step) {
 		if (outcome != JN_OK) return outcome;
 		JN_TRY(jn_passes_correct(&sim->passes, step, round, &step->is_edited, &again));
 	}
-	return JN_OK;
+	return sim->passes.count > 0 ? jn_state_check(sim->sys->space, step->end) : JN_OK; // integrators look at theirs
 }
 
 // History that a method kept of an end that was edited, or whose forces have changed since, is history of another state.
@@ -64,6 +50,7 @@ static void accept(JnSim* sim, const JnStep* step) {
 		jn_integrator_forget(sim->integrator);
 	}
 	sim->last_dt = step->dt;
+	sim->longest_dt = fmax(sim->longest_dt, step->dt);
 	sim->was_edited = step->is_edited;
 }
 
@@ -82,7 +69,8 @@ JnStatus jn_sim_step(JnSim* sim) {
 		const JnStatus outcome = attempt(sim, &step);
 		if (outcome < JN_OK) return outcome;
 		const JnStatus judged = sim->controller->type->judge(sim->controller, &step, outcome, &verdict);
-		if (judged == JN_RUN_FAILED) return explain_failure(sim, &step, outcome);
+		const bool is_lost = outcome == JN_NOT_FINITE && jn_sim_is_lost(sim);
+		if (judged == JN_RUN_FAILED || is_lost) return jn_sim_fail(sim, &step, outcome, !is_lost);
 		if (judged != JN_OK) return judged;
 		if (verdict.accepted) {
 			accept(sim, &step);
@@ -96,11 +84,12 @@ JnStatus jn_sim_step(JnSim* sim) {
 	sim->start = sim->end;
 	sim->end = swap;
 	++sim->steps;
-	return sim->sys->ops->begin(sim->sys, &sim->start);
+	const JnStatus begun = sim->sys->ops->begin(sim->sys, &sim->start);
+	return begun > JN_OK ? jn_sim_fail_at_end(sim, "the forces at its end cannot be evaluated", begun) : begun;
 }
 
 bool jn_sim_is_done(const JnSim* sim) {
-	return sim->def->duration - sim->start.t <= 1e-9 * sim->next_dt;
+	return sim->def->duration - sim->start.t <= 1e-9 * fmin(sim->next_dt, sim->def->duration);
 }
 
 void jn_sim_stop_at(JnSim* sim, double t) {

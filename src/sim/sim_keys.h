@@ -6,6 +6,7 @@
 #include "control/controller.h"
 #include "integrate/integrator.h"
 #include "jounce/sim.h"
+#include "sim/watch.h"
 
 /// Rows for a table of keys; `path` is the place of a JnSimDef in `type`, such as `sim.` or nothing.
 #define JN_SIM_KEY_ROWS(type, path)                                                                                    \
@@ -30,6 +31,11 @@
 		 .field = offsetof(type, path newton),                                                                         \
 		 .keys = jn_newton_keys,                                                                                       \
 		 .meaning = "how implicit stages are solved"},                                                                 \
+		{.name = "watch",                                                                                              \
+		 .kind = JN_OBJECT,                                                                                            \
+		 .field = offsetof(type, path watch),                                                                          \
+		 .keys = jn_watch_keys,                                                                                        \
+		 .meaning = "when a gain of energy is reported"},                                                              \
 	{                                                                                                                  \
 		.name = "step", .kind = JN_VARIANT, .field = offsetof(type, path step), .text = "fixed",                       \
 		.rows = &jn_controller_list, .tag = "controller", .meaning = "the time step and who chooses it"                \

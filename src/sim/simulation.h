@@ -8,6 +8,7 @@
 #include "integrate/integrator.h"
 #include "jounce/sim.h"
 #include "pass/pass.h"
+#include "sim/watch.h"
 
 struct JnSim {
 	const JnSimDef* def;
@@ -24,10 +25,15 @@ struct JnSim {
 	JnState start; // the present state: the end of the last accepted step
 	JnState end;   // of the attempt; between steps, the state before the present one
 	double next_dt, last_dt;
+	double longest_dt; // of the accepted steps
+	JnEnergyWatch watch;
 	bool was_edited; // by a pass: the end of the last accepted step
 	double stop;     // no step goes beyond this time [s]
 	long steps;
 	JnReport report;
 };
+
+/// Build everything but the model anew, as if nothing had been computed with it. The state is then undefined.
+JnStatus jn_sim_renew(JnSim* sim);
 
 #endif
