@@ -5,53 +5,40 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
+
+#include "record/h5_journal.h"
 
 typedef struct Choice {
-	int* error; // where the file's user looks for failures
+	JnH5Disk* disk;
 } Choice;
 
 typedef struct Driver {
 	H5FD_t base; // HDF5's part, must be first
-	int file;
-	int* error;
+	JnH5Disk* disk;
 	haddr_t allocated; // end of what HDF5 has given out
-	haddr_t end;       // end of what is in the file
 } Driver;
-
-static void keep_error(int* error) {
-	if (*error == 0) *error = errno != 0 ? errno : EIO;
-}
 
 static H5FD_t* open_driver(const char* name, unsigned flags, hid_t access_list, haddr_t limit) {
 	const Choice* choice = H5Pget_driver_info(access_list);
 	Driver* driver = calloc(1, sizeof *driver);
 	(void)limit;
 	if (choice == NULL || driver == NULL) {
+		if (choice != NULL && choice->disk->error == 0) choice->disk->error = ENOMEM;
 		free(driver);
 		return NULL;
 	}
 	const int writing = flags & H5F_ACC_RDWR ? O_RDWR : O_RDONLY;
 	const int creating = (flags & H5F_ACC_CREAT ? O_CREAT : 0) | (flags & H5F_ACC_TRUNC ? O_TRUNC : 0) |
 						 (flags & H5F_ACC_EXCL ? O_EXCL : 0);
-	driver->error = choice->error;
-	driver->file = open(name, writing | creating | O_CLOEXEC, 0666);
-	struct stat facts;
-	if (driver->file < 0 || fstat(driver->file, &facts) != 0) {
-		keep_error(driver->error);
-		if (driver->file >= 0) close(driver->file);
-		free(driver);
-		return NULL;
-	}
-	driver->end = (haddr_t)facts.st_size;
-	return &driver->base;
+	driver->disk = choice->disk;
+	if (jn_h5_disk_open(choice->disk, name, writing | creating)) return &driver->base;
+	free(driver);
+	return NULL;
 }
 
 static herr_t close_driver(H5FD_t* base) {
-	Driver* driver = (Driver*)base;
-	if (close(driver->file) != 0) keep_error(driver->error);
-	free(driver);
+	jn_h5_disk_close(((Driver*)base)->disk);
+	free(base);
 	return 0;
 }
 
@@ -75,53 +62,27 @@ static herr_t set_allocated(H5FD_t* base, H5FD_mem_t type, haddr_t address) {
 
 static haddr_t get_end(const H5FD_t* base, H5FD_mem_t type) {
 	(void)type;
-	return ((const Driver*)base)->end;
+	return ((const Driver*)base)->disk->end;
 }
 
-// What lies behind the end of the file reads as zeros.
 static herr_t read_bytes(H5FD_t* base, H5FD_mem_t type, hid_t transfer, haddr_t address, size_t size, void* out) {
-	Driver* driver = (Driver*)base;
-	char* at = out;
 	(void)type, (void)transfer;
-	while (size > 0) {
-		const ssize_t count = pread(driver->file, at, size, (off_t)address);
-		if (count < 0 && errno == EINTR) continue;
-		if (count < 0) keep_error(driver->error);
-		if (count <= 0) break;
-		at += count;
-		address += (haddr_t)count;
-		size -= (size_t)count;
-	}
-	memset(at, 0, size);
+	jn_h5_disk_read(((Driver*)base)->disk, address, size, out);
 	return 0;
 }
 
 static herr_t write_bytes(H5FD_t* base, H5FD_mem_t type, hid_t transfer, haddr_t address, size_t size,
 						  const void* data) {
-	Driver* driver = (Driver*)base;
-	const char* at = data;
 	(void)type, (void)transfer;
-	if (address + size > driver->end) driver->end = address + size;
-	while (size > 0 && *driver->error == 0) {
-		const ssize_t count = pwrite(driver->file, at, size, (off_t)address);
-		if (count < 0 && errno == EINTR) continue;
-		if (count <= 0) {
-			keep_error(driver->error);
-			break;
-		}
-		at += count;
-		address += (haddr_t)count;
-		size -= (size_t)count;
-	}
+	jn_h5_disk_write(((Driver*)base)->disk, address, size, data);
 	return 0;
 }
 
 static herr_t truncate_file(H5FD_t* base, hid_t transfer, hbool_t is_closing) {
-	Driver* driver = (Driver*)base;
+	const Driver* driver = (const Driver*)base;
 	(void)transfer, (void)is_closing;
-	if (driver->end == driver->allocated) return 0;
-	if (*driver->error == 0 && ftruncate(driver->file, (off_t)driver->allocated) != 0) keep_error(driver->error);
-	driver->end = driver->allocated;
+	driver->disk->is_cut |= driver->disk->end != driver->allocated;
+	driver->disk->end = driver->allocated;
 	return 0;
 }
 
@@ -146,9 +107,9 @@ static const H5FD_class_t driver_class = {
 	.fl_map = H5FD_FLMAP_DICHOTOMY,
 };
 
-hid_t jn_h5_driver_choose(hid_t access_list, int* error) {
+hid_t jn_h5_driver_choose(hid_t access_list, JnH5Disk* disk) {
 	const hid_t driver = H5FDregister(&driver_class);
-	const Choice choice = {.error = error};
+	const Choice choice = {.disk = disk};
 	if (driver >= 0 && H5Pset_driver(access_list, driver, &choice) >= 0) return driver;
 	if (driver >= 0) H5FDunregister(driver);
 	return H5I_INVALID_HID;

@@ -1,12 +1,14 @@
 // HDF5's C API with one way to fail. Files stay readable by HDF5 1.8 and later.
 #include "record/h5_file.h"
 
+#include <errno.h>
 #include <string.h>
 
 #include "base/log.h"
-#include "record/h5_driver.h"
 
 enum { CHUNK_LENGTH = 1024, REASON_BYTES = 256 };
+enum { METADATA_BYTES = 256 << 10 };        // as in the file; in memory a frame's headers take ten times as much
+enum { CACHE_SLOTS = 7, CACHE_CHUNKS = 2 }; // of each data set that grows: it is written at its end, and never read
 
 // The innermost record knows the reason.
 static herr_t copy_reason(unsigned depth, const H5E_error2_t* record, void* out) {
@@ -14,35 +16,73 @@ static herr_t copy_reason(unsigned depth, const H5E_error2_t* record, void* out)
 	return 0;
 }
 
+static JnStatus failure_of(const JnH5File* file) {
+	return file->disk.error == ENOMEM ? JN_OUT_OF_MEMORY : JN_IO_FAILED;
+}
+
 static JnStatus fail(JnH5File* file, const char* what) {
 	char reason[REASON_BYTES] = "HDF5 gives no reason";
 	H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, copy_reason, reason);
 	file->is_broken = true;
-	return jn_error(JN_IO_FAILED, "%s: cannot write %s: %s", file->path, what,
-					file->error != 0 ? strerror(file->error) : reason);
+	const int error = file->disk.error;
+	return jn_error(failure_of(file), "%s: cannot write %s: %s", file->path, what,
+					error == EWOULDBLOCK ? "another run writes to it; wait for it, or choose another folder"
+					: error != 0         ? strerror(error)
+										 : reason);
 }
 
 static JnStatus judge(JnH5File* file, bool is_good, const char* what) {
-	return is_good && file->error == 0 ? JN_OK : fail(file, what);
+	return is_good && file->disk.error == 0 ? JN_OK : fail(file, what);
 }
 
-JnStatus jn_h5_create(JnH5File* file, const char* directory, const char* name) {
+typedef enum Opening { CREATE, GO_ON } Opening;
+
+// HDF5 would keep 32 MiB of headers of frames, which nobody reads again.
+static bool limit_metadata(hid_t access) {
+	H5AC_cache_config_t config = {.version = H5AC__CURR_CACHE_CONFIG_VERSION};
+	if (H5Pget_mdc_config(access, &config) < 0) return false;
+	config.set_initial_size = 1;
+	config.initial_size = config.min_size = config.max_size = METADATA_BYTES;
+	return H5Pset_mdc_config(access, &config) >= 0;
+}
+
+static JnStatus open_file(JnH5File* file, const char* directory, const char* name, Opening opening) {
 	*file = (JnH5File){.id = H5I_INVALID_HID, .link_list = H5I_INVALID_HID, .driver = H5I_INVALID_HID};
 	JN_TRY(jn_path_join(directory, name, file->path));
+	if (opening == GO_ON) JN_TRY(jn_h5_recover(file->path));
 	H5Eget_auto2(H5E_DEFAULT, &file->printer, &file->printer_data);
 	H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 	file->link_list = H5Pcreate(H5P_LINK_CREATE);
 	const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-	file->driver = jn_h5_driver_choose(access, &file->error);
+	file->driver = jn_h5_driver_choose(access, &file->disk);
 	const bool is_ready = file->driver >= 0 && file->link_list >= 0 && access >= 0 &&
 						  H5Pset_create_intermediate_group(file->link_list, 1) >= 0 &&
 						  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST) >= 0 &&
+						  limit_metadata(access) &&
+						  H5Pset_cache(access, 0, CACHE_SLOTS, CACHE_CHUNKS * CHUNK_LENGTH * sizeof(double), 1) >= 0 &&
 						  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0;
-	if (is_ready) file->id = H5Fcreate(file->path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+	if (is_ready && opening == CREATE) file->id = H5Fcreate(file->path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+	if (is_ready && opening == GO_ON) file->id = H5Fopen(file->path, H5F_ACC_RDWR, access);
 	const JnStatus status = judge(file, file->id >= 0, "the file");
 	H5Pclose(access);
 	if (status != JN_OK) jn_h5_close(file);
 	return status;
+}
+
+JnStatus jn_h5_create(JnH5File* file, const char* directory, const char* name) {
+	return open_file(file, directory, name, CREATE);
+}
+
+JnStatus jn_h5_open(JnH5File* file, const char* directory, const char* name) {
+	return open_file(file, directory, name, GO_ON);
+}
+
+bool jn_h5_has(JnH5File* file, const char* name) {
+	return H5Lexists(file->id, name, H5P_DEFAULT) > 0;
+}
+
+JnStatus jn_h5_remove(JnH5File* file, const char* name) {
+	return judge(file, H5Ldelete(file->id, name, H5P_DEFAULT) >= 0, name);
 }
 
 JnStatus jn_h5_group(JnH5File* file, const char* name) {
@@ -137,6 +177,16 @@ JnStatus jn_h5_extendible(JnH5File* file, const char* name, hid_t file_type, hid
 	return status;
 }
 
+JnStatus jn_h5_reopen(JnH5File* file, const char* name, hsize_t length, hid_t* dataset) {
+	hsize_t found = 0;
+	*dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
+	const hid_t space = *dataset >= 0 ? H5Dget_space(*dataset) : H5I_INVALID_HID;
+	const bool is_list = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 &&
+						 H5Sget_simple_extent_dims(space, &found, NULL) >= 0 && found >= length;
+	if (space >= 0) H5Sclose(space);
+	return judge(file, is_list && H5Dset_extent(*dataset, &length) >= 0, name);
+}
+
 JnStatus jn_h5_append(JnH5File* file, hid_t dataset, hid_t memory_type, hsize_t length, hsize_t count,
 					  const void* data) {
 	const hsize_t new_length = length + count;
@@ -151,8 +201,17 @@ JnStatus jn_h5_append(JnH5File* file, hid_t dataset, hid_t memory_type, hsize_t 
 	return status;
 }
 
+// What HDF5 flushes is a whole file; only as such does it reach the disk.
 JnStatus jn_h5_flush(JnH5File* file) {
-	return judge(file, H5Fflush(file->id, H5F_SCOPE_LOCAL) >= 0, "the file");
+	JN_TRY(judge(file, H5Fflush(file->id, H5F_SCOPE_LOCAL) >= 0, "the file"));
+	jn_h5_commit(&file->disk);
+	return judge(file, true, "the file");
+}
+
+JnStatus jn_h5_sync(JnH5File* file) {
+	JN_TRY(jn_h5_flush(file));
+	jn_h5_sync_disk(&file->disk);
+	return judge(file, true, "the file");
 }
 
 JnStatus jn_h5_close(JnH5File* file) {
@@ -161,5 +220,5 @@ JnStatus jn_h5_close(JnH5File* file) {
 	if (file->driver >= 0) H5FDunregister(file->driver);
 	if (file->link_list >= 0) H5Pclose(file->link_list);
 	H5Eset_auto2(H5E_DEFAULT, file->printer, file->printer_data);
-	return file->is_broken ? JN_IO_FAILED : JN_OK;
+	return file->is_broken ? failure_of(file) : JN_OK;
 }

@@ -6,13 +6,14 @@
 
 #include <hdf5.h>
 
+#include "record/h5_driver.h"
 #include "record/text_file.h"
 
 typedef struct JnH5File {
 	hid_t id;
 	hid_t link_list;     ///< property list that makes the groups on the way to an object
 	hid_t driver;        ///< see h5_driver.h
-	int error;           ///< errno of the first failure to reach the disk, or 0
+	JnH5Disk disk;       ///< its side of the file: the struct must not move while it is open
 	bool is_broken;      ///< a failure has been told
 	H5E_auto2_t printer; ///< what HDF5 did with its own messages before
 	void* printer_data;
@@ -21,6 +22,18 @@ typedef struct JnH5File {
 
 /// Create "directory/name" or empty it; without HDF5's file lock, so that others may look at a run in progress.
 JnStatus jn_h5_create(JnH5File* file, const char* directory, const char* name);
+
+/// Open "directory/name" to go on writing, at its last flush, whatever became of its writer.
+JnStatus jn_h5_open(JnH5File* file, const char* directory, const char* name);
+
+/// Is there an object of that name?
+bool jn_h5_has(JnH5File* file, const char* name);
+
+/// Remove a group with all that is in it.
+JnStatus jn_h5_remove(JnH5File* file, const char* name);
+
+/// Open a 1-D dataset that grows, to be cut to `length`, which it must have at least.
+JnStatus jn_h5_reopen(JnH5File* file, const char* name, hsize_t length, hid_t* dataset);
 
 /// A group that may stay empty.
 JnStatus jn_h5_group(JnH5File* file, const char* name);
@@ -49,6 +62,9 @@ JnStatus jn_h5_append(JnH5File* file, hid_t dataset, hid_t memory_type, hsize_t 
 
 /// Bring the file on disk into a state that readers understand, even if the run is killed after it.
 JnStatus jn_h5_flush(JnH5File* file);
+
+/// The same, and it survives a loss of power.
+JnStatus jn_h5_sync(JnH5File* file);
 
 /// Close the file and all its objects. A broken file is closed without a further word, with JN_IO_FAILED.
 JnStatus jn_h5_close(JnH5File* file);

@@ -142,6 +142,57 @@ static JnStatus open_hdf5(JnRecorder* recorder, const JnRecordInfo* info) {
 	return status;
 }
 
+static void archive_hdf5(JnRecorder* recorder, JnArchive* archive) {
+	Hdf5* hdf5 = (Hdf5*)recorder;
+	long rows = (long)hdf5->length + hdf5->buffered;
+	jn_archive_long(archive, "run.h5 frames", &hdf5->frame_count);
+	jn_archive_long(archive, "run.h5 rows", &rows);
+	hdf5->length = (hsize_t)rows - (hsize_t)hdf5->buffered;
+}
+
+static void name_frame(char name[64], long frame) {
+	snprintf(name, 64, "/frames/%08ld", frame);
+}
+
+// Frames and rows that come after those noted go: they will be written again.
+static JnStatus cut(Hdf5* hdf5, const JnRecordInfo* info) {
+	JnH5File* file = &hdf5->file;
+	char name[512];
+	name_frame(name, hdf5->frame_count - 1);
+	if (hdf5->frame_count > 0 && !jn_h5_has(file, name))
+		return jn_error(JN_BAD_INPUT,
+						"%s: has fewer than the %ld frames that the checkpoint tells of; it is that of another run",
+						file->path, hdf5->frame_count);
+	for (long frame = hdf5->frame_count;; frame++) {
+		name_frame(name, frame);
+		if (!jn_h5_has(file, name)) break;
+		JN_TRY(jn_h5_remove(file, name));
+	}
+	for (int i = 0; i < info->column_count; i++) {
+		snprintf(name, sizeof name, "/series/%s", info->columns[i].name);
+		JN_TRY(jn_h5_reopen(file, name, hdf5->length, &hdf5->datasets[i]));
+	}
+	JN_TRY(jn_h5_attribute_integer(file, "/frames", "count", hdf5->frame_count));
+	JN_TRY(jn_h5_attribute_text(file, "/", "outcome", "running"));
+	JN_TRY(jn_h5_attribute_text(file, "/", "message", ""));
+	return jn_h5_flush(file);
+}
+
+static JnStatus resume_hdf5(JnRecorder* recorder, const JnRecordInfo* info, JnArchive* archive) {
+	Hdf5* hdf5 = (Hdf5*)recorder;
+	archive_hdf5(recorder, archive);
+	JN_TRY(archive->status);
+	JnStatus status = take_buffers(hdf5, info);
+	if (status == JN_OK) status = jn_h5_open(&hdf5->file, info->directory, "run.h5");
+	if (status == JN_OK) {
+		status = cut(hdf5, info);
+		if (status != JN_OK) jn_h5_close(&hdf5->file);
+	}
+	if (status != JN_OK) free_buffers(hdf5);
+	hdf5->flushed = jn_seconds();
+	return status;
+}
+
 static JnStatus append_series(Hdf5* hdf5) {
 	const JnRecordInfo* info = hdf5->base.info;
 	const hsize_t count = (hsize_t)hdf5->buffered;
@@ -186,7 +237,7 @@ static JnStatus write_frame(Hdf5* hdf5, const JnRecordStep* step) {
 	JnH5File* file = &hdf5->file;
 	const hsize_t dims[2] = {(hsize_t)hdf5->base.info->node_count, 3};
 	char group[64], position[80], velocity[80];
-	snprintf(group, sizeof group, "/frames/%08ld", hdf5->frame_count);
+	name_frame(group, hdf5->frame_count);
 	snprintf(position, sizeof position, "%s/position", group);
 	snprintf(velocity, sizeof velocity, "%s/velocity", group);
 	JN_TRY(jn_h5_array(file, position, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 2, dims, step->x));
@@ -213,6 +264,12 @@ static JnStatus write_hdf5(JnRecorder* recorder, const JnRecordStep* step) {
 	return is_due || step->is_frame ? jn_h5_flush(&hdf5->file) : JN_OK;
 }
 
+static JnStatus sync_hdf5(JnRecorder* recorder) {
+	Hdf5* hdf5 = (Hdf5*)recorder;
+	JN_TRY(append_series(hdf5));
+	return jn_h5_sync(&hdf5->file);
+}
+
 static JnStatus write_end(Hdf5* hdf5, const JnRecordEnd* end) {
 	JN_TRY(append_series(hdf5));
 	JN_TRY(jn_h5_attribute_text(&hdf5->file, "/", "outcome", end->outcome));
@@ -235,4 +292,7 @@ const JnRecorderType jn_recorder_hdf5 = {
 	.open = open_hdf5,
 	.write = write_hdf5,
 	.close = close_hdf5,
+	.resume = resume_hdf5,
+	.archive = archive_hdf5,
+	.sync = sync_hdf5,
 };

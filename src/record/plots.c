@@ -31,6 +31,18 @@ static JnStatus open_plots(JnRecorder* recorder, const JnRecordInfo* info) {
 	return JN_OK;
 }
 
+static void archive_plots(JnRecorder* recorder, JnArchive* archive) {
+	Plots* plots = (Plots*)recorder;
+	jn_archive_bytes(archive, "ranges", plots->ranges, sizeof plots->ranges);
+	jn_archive_long(archive, "rows", &plots->rows);
+}
+
+static JnStatus resume_plots(JnRecorder* recorder, const JnRecordInfo* info, JnArchive* archive) {
+	archive_plots(recorder, archive);
+	JN_TRY(archive->status);
+	return open_plots(recorder, info);
+}
+
 static JnStatus write_plots(JnRecorder* recorder, const JnRecordStep* step) {
 	Plots* plots = (Plots*)recorder;
 	if (step->values == NULL) return JN_OK;
@@ -116,4 +128,6 @@ const JnRecorderType jn_recorder_plots = {
 	.open = open_plots,
 	.write = write_plots,
 	.close = close_plots,
+	.resume = resume_plots,
+	.archive = archive_plots,
 };

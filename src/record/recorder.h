@@ -4,6 +4,7 @@
 #define JN_RECORD_RECORDER_H
 
 #include "base/arena.h"
+#include "jounce/archive.h"
 #include "jounce/scene.h"
 #include "mesh/embed.h"
 #include "mesh/mesh.h"
@@ -85,6 +86,7 @@ typedef struct JnRecordEnd {
 	double wall_seconds; ///< time spent stepping
 	double setup_seconds;
 	double seconds_predict, seconds_detect, seconds_factor, seconds_qp; ///< parts of wall_seconds, as in JnReport
+	double seconds_save;                                                ///< and for checkpoints
 	long steps, frames, rejected, newton, factorizations, solves, iterations, forces, tangents, indefinite, minimized;
 	long served[JN_WAY_COUNT], changes;        ///< solves by their way, and changes of it
 	double t, t_end;                           ///< reached and wanted [s]
@@ -101,6 +103,10 @@ typedef struct JnRecorderType {
 	JnStatus (*open)(JnRecorder*, const JnRecordInfo*); ///< info outlives the recorder
 	JnStatus (*write)(JnRecorder*, const JnRecordStep*);
 	JnStatus (*close)(JnRecorder*, const JnRecordEnd*); ///< called once for every opened recorder, also after failure
+	/// In place of open: go on with what an earlier run of the same info has left, from where `archive` noted. NULL: open.
+	JnStatus (*resume)(JnRecorder*, const JnRecordInfo*, JnArchive*);
+	void (*archive)(JnRecorder*, JnArchive*); ///< note how far it has come; NULL: there is nothing to note
+	JnStatus (*sync)(JnRecorder*);            ///< what was written survives a loss of power; NULL: nothing to do
 } JnRecorderType;
 
 struct JnRecorder {
@@ -116,8 +122,15 @@ typedef struct JnRecorders {
 	JnRecorder** list;
 } JnRecorders;
 
-JnStatus jn_recorders_open(JnRecorders* recorders, JnArena* arena, const JnRecordInfo* info);
+/// resumed: NULL, or what jn_recorders_archive noted in the run that is to go on.
+JnStatus jn_recorders_open(JnRecorders* recorders, JnArena* arena, const JnRecordInfo* info, JnArchive* resumed);
 JnStatus jn_recorders_write(JnRecorders* recorders, const JnRecordStep* step);
 JnStatus jn_recorders_close(JnRecorders* recorders, const JnRecordEnd* end);
+
+/// Note how far all of them have come.
+void jn_recorders_archive(JnRecorders* recorders, JnArchive* archive);
+
+/// All that was written survives a loss of power.
+JnStatus jn_recorders_sync(JnRecorders* recorders);
 
 #endif

@@ -90,7 +90,12 @@ static JnStatus check_info(const JnRecordInfo* info) {
 	return check_nodes(info->nodes, info->node_count, (JnField){"rest position", "m", 3}, 0);
 }
 
-JnStatus jn_recorders_open(JnRecorders* recorders, JnArena* arena, const JnRecordInfo* info) {
+static JnStatus start(JnRecorder* recorder, const JnRecordInfo* info, JnArchive* resumed) {
+	if (resumed == NULL || recorder->type->resume == NULL) return recorder->type->open(recorder, info);
+	return recorder->type->resume(recorder, info, resumed);
+}
+
+JnStatus jn_recorders_open(JnRecorders* recorders, JnArena* arena, const JnRecordInfo* info, JnArchive* resumed) {
 	int count = 0;
 	while (jn_recorder_list[count] != NULL) count++;
 	*recorders = (JnRecorders){0};
@@ -102,7 +107,7 @@ JnStatus jn_recorders_open(JnRecorders* recorders, JnArena* arena, const JnRecor
 		JnStatus status = JN_OUT_OF_MEMORY;
 		if (recorder != NULL) {
 			*recorder = (JnRecorder){.type = type, .info = info};
-			status = type->open(recorder, info);
+			status = start(recorder, info, resumed);
 		}
 		if (status != JN_OK) {
 			jn_recorders_close(recorders, &(JnRecordEnd){.outcome = "failed", .message = "a recorder could not start"});
@@ -130,4 +135,15 @@ JnStatus jn_recorders_close(JnRecorders* recorders, const JnRecordEnd* end) {
 	}
 	recorders->count = 0;
 	return first;
+}
+
+void jn_recorders_archive(JnRecorders* recorders, JnArchive* archive) {
+	for (int i = 0; i < recorders->count; i++)
+		if (recorders->list[i]->type->archive != NULL) recorders->list[i]->type->archive(recorders->list[i], archive);
+}
+
+JnStatus jn_recorders_sync(JnRecorders* recorders) {
+	for (int i = 0; i < recorders->count; i++)
+		if (recorders->list[i]->type->sync != NULL) JN_TRY(recorders->list[i]->type->sync(recorders->list[i]));
+	return JN_OK;
 }

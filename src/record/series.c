@@ -1,6 +1,7 @@
 // series.csv: a header and one row a step. Numbers read back to the same bits; the file on disk ends with a whole row.
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/log.h"
 #include "base/timer.h"
@@ -15,6 +16,7 @@ typedef struct Series {
 	JnTextFile file;
 	char* line;     // of a row: NUMBER_BYTES a column
 	size_t pending; // bytes in the stream's buffer, at most BUFFER_BYTES
+	long size;      // bytes of the file, those in the buffer included
 	double flushed; // clock at the last flush [s]
 	bool is_broken; // a failure has been told
 } Series;
@@ -27,23 +29,61 @@ static JnStatus flush(Series* series) {
 	return status;
 }
 
+static JnStatus take_line(Series* series, const JnRecordInfo* info) {
+	series->line = malloc((size_t)info->column_count * NUMBER_BYTES + 1);
+	return series->line != NULL ? JN_OK : jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for a row of series.csv");
+}
+
+static void abandon(Series* series) {
+	jn_text_abandon(&series->file);
+	free(series->line);
+}
+
+static JnStatus write_header(Series* series, const JnRecordInfo* info) {
+	for (int i = 0; i < info->column_count; i++) {
+		const char* name = info->columns[i].name;
+		jn_text_print(&series->file, "%s%s", i > 0 ? "," : "", name);
+		series->size += (long)strlen(name) + (i > 0);
+	}
+	jn_text_print(&series->file, "\n");
+	++series->size;
+	return flush(series);
+}
+
 static JnStatus open_series(JnRecorder* recorder, const JnRecordInfo* info) {
 	Series* series = (Series*)recorder;
-	series->line = malloc((size_t)info->column_count * NUMBER_BYTES + 1);
-	if (series->line == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for a row of series.csv");
+	JN_TRY(take_line(series, info));
 	JnStatus status = jn_text_open(&series->file, info->directory, "series.csv", JN_TEXT_DIRECT);
 	if (status == JN_OK) {
 		setvbuf(series->file.stream, NULL, _IOFBF, BUFFER_BYTES);
-		for (int i = 0; i < info->column_count; i++) {
-			jn_text_print(&series->file, "%s%s", i > 0 ? "," : "", info->columns[i].name);
-		}
-		jn_text_print(&series->file, "\n");
-		status = flush(series);
+		status = write_header(series, info);
 	}
-	if (status == JN_OK) return JN_OK;
-	jn_text_abandon(&series->file);
-	free(series->line);
+	if (status != JN_OK) abandon(series);
 	return status;
+}
+
+static void archive_series(JnRecorder* recorder, JnArchive* archive) {
+	jn_archive_long(archive, "series.csv", &((Series*)recorder)->size);
+}
+
+static JnStatus resume_series(JnRecorder* recorder, const JnRecordInfo* info, JnArchive* archive) {
+	Series* series = (Series*)recorder;
+	archive_series(recorder, archive);
+	JN_TRY(archive->status);
+	JN_TRY(take_line(series, info));
+	const JnStatus status = jn_text_resume(&series->file, info->directory, "series.csv", series->size);
+	series->flushed = jn_seconds();
+	if (status == JN_OK)
+		setvbuf(series->file.stream, NULL, _IOFBF, BUFFER_BYTES);
+	else
+		abandon(series);
+	return status;
+}
+
+static JnStatus sync_series(JnRecorder* recorder) {
+	Series* series = (Series*)recorder;
+	JN_TRY(flush(series));
+	return jn_text_sync(&series->file);
 }
 
 // 15 digits where they are enough, 17 where not: both read back to the same double.
@@ -66,6 +106,7 @@ static JnStatus write_series(JnRecorder* recorder, const JnRecordStep* step) {
 	if (series->pending + length > BUFFER_BYTES) JN_TRY(flush(series));
 	jn_text_write(&series->file, series->line, length);
 	series->pending += length;
+	series->size += (long)length;
 	return jn_seconds() - series->flushed >= 1 ? flush(series) : JN_OK;
 }
 
@@ -85,4 +126,7 @@ const JnRecorderType jn_recorder_series = {
 	.open = open_series,
 	.write = write_series,
 	.close = close_series,
+	.resume = resume_series,
+	.archive = archive_series,
+	.sync = sync_series,
 };

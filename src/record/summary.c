@@ -85,6 +85,7 @@ static void print_reals(JnTextFile* file, const Summary* summary, const JnRecord
 		{"seconds_detect", end->seconds_detect},
 		{"seconds_factor", end->seconds_factor},
 		{"seconds_qp", end->seconds_qp},
+		{"seconds_save", end->seconds_save},
 		{"specific_error", end->specific_error},
 		{"specific_error_max", end->specific_error_max},
 		{"total_mass", summary->base.info->total_mass},
@@ -187,6 +188,20 @@ static JnStatus write_summary(JnRecorder* recorder, const JnRecordStep* step) {
 	return JN_OK;
 }
 
+static void archive_summary(JnRecorder* recorder, JnArchive* archive) {
+	Summary* summary = (Summary*)recorder;
+	jn_archive_bytes(archive, "created", summary->created, sizeof summary->created);
+	summary->created[sizeof summary->created - 1] = '\0';
+	jn_archive_real(archive, "t_start", &summary->t_start);
+	jn_archive_switch(archive, "is_started", &summary->is_started);
+}
+
+static JnStatus resume_summary(JnRecorder* recorder, const JnRecordInfo* info, JnArchive* archive) {
+	(void)info;
+	archive_summary(recorder, archive);
+	return archive->status;
+}
+
 static JnStatus close_summary(JnRecorder* recorder, const JnRecordEnd* end) {
 	const Summary* summary = (const Summary*)recorder;
 	JnTextFile file;
@@ -209,4 +224,6 @@ const JnRecorderType jn_recorder_summary = {
 	.open = open_summary,
 	.write = write_summary,
 	.close = close_summary,
+	.resume = resume_summary,
+	.archive = archive_summary,
 };

@@ -29,6 +29,23 @@ JnStatus jn_text_open(JnTextFile* file, const char* directory, const char* name,
 	return jn_error(JN_IO_FAILED, "%s: cannot create the file: %s", file->temporary, strerror(errno));
 }
 
+JnStatus jn_text_resume(JnTextFile* file, const char* directory, const char* name, long size) {
+	*file = (JnTextFile){.mode = JN_TEXT_DIRECT};
+	JN_TRY(jn_path_join(directory, name, file->path));
+	JN_TRY(jn_path_join(directory, name, file->temporary));
+	file->stream = fopen(file->path, "r+");
+	if (file->stream == NULL)
+		return jn_error(JN_IO_FAILED, "%s: cannot open the file to go on: %s", file->path, strerror(errno));
+	const bool is_long_enough = fseek(file->stream, 0, SEEK_END) == 0 && ftell(file->stream) >= size;
+	if (is_long_enough && ftruncate(fileno(file->stream), size) == 0 && fseek(file->stream, size, SEEK_SET) == 0)
+		return JN_OK;
+	fclose(file->stream);
+	file->stream = NULL;
+	return jn_error(JN_BAD_INPUT,
+					"%s: has fewer than the %ld bytes that the checkpoint tells of; it is that of another run",
+					file->path, size);
+}
+
 static void keep_error(JnTextFile* file) {
 	if (file->error == 0) file->error = errno != 0 ? errno : EIO;
 }
@@ -51,6 +68,12 @@ static JnStatus tell_error(const JnTextFile* file) {
 
 JnStatus jn_text_flush(JnTextFile* file) {
 	if (fflush(file->stream) != 0) keep_error(file);
+	return tell_error(file);
+}
+
+JnStatus jn_text_sync(JnTextFile* file) {
+	JN_TRY(jn_text_flush(file));
+	if (fdatasync(fileno(file->stream)) != 0) keep_error(file);
 	return tell_error(file);
 }
 

@@ -29,12 +29,19 @@ JnStatus jn_path_join(const char* directory, const char* name, char path[JN_PATH
 /// Create or empty the file `name` in `directory`. JN_IO_FAILED when that is not possible.
 JnStatus jn_text_open(JnTextFile* file, const char* directory, const char* name, JnTextMode mode);
 
+/// Open the file `name` in `directory` to go on behind its first `size` bytes; what follows them is cut off. JN_BAD_INPUT
+/// when it has not so many.
+JnStatus jn_text_resume(JnTextFile* file, const char* directory, const char* name, long size);
+
 /// Append. A failure is kept in `file` and told by the next flush or close.
 void jn_text_print(JnTextFile* file, const char* format, ...) __attribute__((format(printf, 2, 3)));
 void jn_text_write(JnTextFile* file, const char* text, size_t length);
 
 /// Hand what was written to the system. JN_IO_FAILED after any failure so far.
 JnStatus jn_text_flush(JnTextFile* file);
+
+/// The same, and it survives a loss of power.
+JnStatus jn_text_sync(JnTextFile* file);
 
 /// Close; a JN_TEXT_REPLACE file takes its name now. JN_IO_FAILED after any failure so far, and then the file under
 /// that name is still the old one. Without effect on a closed file.

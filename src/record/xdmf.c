@@ -148,15 +148,35 @@ static JnStatus open_xdmf(JnRecorder* recorder, const JnRecordInfo* info) {
 	return write_files(xdmf);
 }
 
+static JnStatus reserve(Xdmf* xdmf, long frames) {
+	long capacity = xdmf->capacity > 0 ? xdmf->capacity : 1024;
+	while (capacity < frames) capacity *= 2;
+	if (capacity == xdmf->capacity) return JN_OK;
+	double* times = realloc(xdmf->times, (size_t)capacity * sizeof *times);
+	if (times == NULL)
+		return jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for the times of %ld frames", capacity);
+	xdmf->times = times;
+	xdmf->capacity = capacity;
+	return JN_OK;
+}
+
+static void archive_xdmf(JnRecorder* recorder, JnArchive* archive) {
+	Xdmf* xdmf = (Xdmf*)recorder;
+	xdmf->frame_count = jn_archive_count(archive, "frames", (int)xdmf->frame_count, sizeof *xdmf->times);
+	if (archive->is_reading && archive->status == JN_OK) archive->status = reserve(xdmf, xdmf->frame_count);
+	jn_archive_reals(archive, "times", xdmf->times, (size_t)xdmf->frame_count);
+}
+
+static JnStatus resume_xdmf(JnRecorder* recorder, const JnRecordInfo* info, JnArchive* archive) {
+	Xdmf* xdmf = (Xdmf*)recorder;
+	archive_xdmf(recorder, archive);
+	const JnStatus status = archive->status == JN_OK ? open_xdmf(recorder, info) : archive->status;
+	if (status != JN_OK) free(xdmf->times);
+	return status;
+}
+
 static JnStatus add_time(Xdmf* xdmf, double t) {
-	if (xdmf->frame_count == xdmf->capacity) {
-		const long capacity = xdmf->capacity > 0 ? 2 * xdmf->capacity : 1024;
-		double* times = realloc(xdmf->times, (size_t)capacity * sizeof *times);
-		if (times == NULL)
-			return jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for the times of %ld frames", capacity);
-		xdmf->times = times;
-		xdmf->capacity = capacity;
-	}
+	JN_TRY(reserve(xdmf, xdmf->frame_count + 1));
 	xdmf->times[xdmf->frame_count++] = t;
 	return JN_OK;
 }
@@ -184,4 +204,6 @@ const JnRecorderType jn_recorder_xdmf = {
 	.open = open_xdmf,
 	.write = write_xdmf,
 	.close = close_xdmf,
+	.resume = resume_xdmf,
+	.archive = archive_xdmf,
 };

@@ -253,7 +253,7 @@ JnStatus jn_run_describe(JnRun* run) {
 	return name_columns(run);
 }
 
-void jn_run_measure(JnRun* run) {
+JnStatus jn_run_measure(JnRun* run) {
 	const JnReport* report = jn_sim_last_report(run->sim);
 	const JnState* state = jn_sim_state(run->sim);
 	const JnEnergies e = jn_sim_energies(run->sim);
@@ -285,4 +285,5 @@ void jn_run_measure(JnRun* run) {
 	memcpy(run->values, values, sizeof values);
 	double* probes = measure_more(run, run->values + FIXED_COLUMNS);
 	for (int i = 0; i < run->scene->def.probes.count; ++i) jn_probe_position(&run->probes[i], state->x, probes + 3 * i);
+	return jn_sim_watch(run->sim, &e);
 }

@@ -37,6 +37,26 @@ static const JnKey record_keys[] = {
 	{0},
 };
 
+static const JnKey checkpoint_keys[] = {
+	{.name = "every",
+	 .kind = JN_REAL,
+	 .field = offsetof(JnCheckpointDef, every),
+	 .low = 0,
+	 .high = 1e9,
+	 .unit = "s",
+	 .meaning =
+		 "simulated time between saved states, each with a file of its own; 0: after 50 to 10000 steps, fewer for "
+		 "larger models, and a file every ten seconds at most"},
+	{.name = "keep",
+	 .kind = JN_INTEGER,
+	 .field = offsetof(JnCheckpointDef, keep),
+	 .value = {2},
+	 .low = 1,
+	 .high = 1000,
+	 .meaning = "newest files that stay, in case that one is damaged"},
+	{0},
+};
+
 const JnKey jn_scene_keys[] = {
 	{.name = "name",
 	 .kind = JN_TEXT,
@@ -129,6 +149,11 @@ const JnKey jn_scene_keys[] = {
 	 .field = offsetof(JnSceneDef, record),
 	 .keys = record_keys,
 	 .meaning = "what is recorded"},
+	{.name = "checkpoint",
+	 .kind = JN_OBJECT,
+	 .field = offsetof(JnSceneDef, checkpoint),
+	 .keys = checkpoint_keys,
+	 .meaning = "when the run saves its state, for `jounce resume`"},
 	{0},
 };
 
