@@ -1,6 +1,7 @@
 // Each combination is loaded and built, the reference first, with which the others must share mesh and duration.
 #include "compare_check.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,6 +35,7 @@ static int nodes_of(JnSim* sim) {
 }
 
 static JnStatus keep_common(JnSim* sim, double duration, Common* common) {
+	assert(common->rest == NULL); // there is one reference
 	common->duration = duration;
 	common->node_count = nodes_of(sim);
 	const size_t bytes = 3 * (size_t)common->node_count * sizeof(double);

@@ -30,7 +30,9 @@ const char* compare_outcome_word(const CompareJob* job) {
 }
 
 double compare_value(const CompareResults* results, int run, const CompareColumn* column) {
-	return *(const double*)((const char*)&results->list[run] + column->field);
+	double value;
+	memcpy(&value, (const char*)&results->list[run] + column->field, sizeof value);
+	return value;
 }
 
 static void print_quoted(JnTextFile* file, const char* text) {

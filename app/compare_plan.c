@@ -148,7 +148,7 @@ static const char* join(JnArena* arena, const char* key, const char* value) {
 
 // Pictures of each run only when asked for: `sets` come later and win.
 static bool begin_sets(ComparePlan* plan, const CompareOptions* options, int extra, CompareRun* run) {
-	run->sets = jn_arena_take(&plan->arena, (size_t)(1 + options->sets.count + extra), sizeof *run->sets);
+	run->sets = jn_arena_take(&plan->arena, (size_t)options->sets.count + (size_t)extra + 1, sizeof *run->sets);
 	run->values = jn_arena_take(&plan->arena, (size_t)plan->key_count, sizeof *run->values);
 	if (run->sets == NULL || run->values == NULL) return false;
 	run->sets[run->set_count++] = "record.plots=no";

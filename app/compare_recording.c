@@ -41,6 +41,7 @@ static JnStatus read_last_frame(hid_t file, CompareRecording* recording) {
 	char group[64], position[80], velocity[80];
 	hssize_t rest = 0, x = 0, v = 0;
 	JN_TRY(recording_file_attribute(file, "/frames", "count", H5T_NATIVE_INT, &frames));
+	if (frames < 1) return JN_IO_FAILED;
 	snprintf(group, sizeof group, "/frames/%08d", frames - 1);
 	snprintf(position, sizeof position, "%s/position", group);
 	snprintf(velocity, sizeof velocity, "%s/velocity", group);

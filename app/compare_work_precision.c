@@ -14,7 +14,8 @@ static double run_cost(const CompareResults* results, int run, Cost cost) {
 // Marks at 1, 2 and 5 where powers of ten alone would be few.
 static void print_marks(JnTextFile* file, double low, double high) {
 	const char* lead = "set xtics (";
-	for (double decade = pow(10, floor(log10(low))); decade <= high; decade *= 10) {
+	for (int power = (int)floor(log10(low)); pow(10, power) <= high; ++power) {
+		const double decade = pow(10, power);
 		static const int leading[] = {1, 2, 5};
 		for (int i = 0; i < 3; ++i) {
 			if (leading[i] * decade < low || leading[i] * decade > high) continue;

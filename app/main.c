@@ -1,6 +1,5 @@
 // The command `jounce`: picks the subcommand.
 #include <malloc.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -17,6 +16,7 @@ typedef struct Command {
 
 static const Command commands[] = {
 	{"run", app_run, "simulate a scene and record it"},
+	{"resume", app_resume, "go on with a run that was stopped"},
 	{"compare", app_compare, "run a scene in many variants and compare errors, costs and energies"},
 	{"export", app_export, "write a recording for Blender, ParaView, browsers and other programs"},
 	{"score", app_score, "find the largest stable step of integrators, over the time of a step"},
@@ -34,29 +34,6 @@ enum { COMMANDS = sizeof commands / sizeof *commands };
 static const char* command_name(void* context, int index) {
 	(void)context;
 	return index < COMMANDS ? commands[index].name : NULL;
-}
-
-int app_exit_status(JnStatus status) {
-	switch (status) {
-	case JN_OK:
-		return EXIT_DONE;
-	case JN_BAD_INPUT:
-		return EXIT_BAD_INPUT;
-	case JN_IO_FAILED:
-		return EXIT_FILE_FAILED;
-	default:
-		return EXIT_RUN_FAILED;
-	}
-}
-
-int app_usage_error(const char* command, const char* format, ...) {
-	va_list arguments;
-	va_start(arguments, format);
-	fputs("jounce: error: ", stderr);
-	vfprintf(stderr, format, arguments);
-	fprintf(stderr, "\n'jounce %s%s--help' explains\n", command, *command != '\0' ? " " : "");
-	va_end(arguments);
-	return EXIT_BAD_INPUT;
 }
 
 static void print_help(FILE* out) {

@@ -11,13 +11,10 @@
 enum { MOST_THREADS = 1024 };
 
 static const struct option known[] = {
-	{"help", no_argument, NULL, 'h'},
-	{"output", required_argument, NULL, 'o'},
-	{"quiet", no_argument, NULL, 'q'},
-	{"set", required_argument, NULL, 's'},
-	{"threads", required_argument, NULL, 't'},
-	{"realtime", optional_argument, NULL, 'r'},
-	{0},
+	{"help", no_argument, NULL, 'h'},          {"output", required_argument, NULL, 'o'},
+	{"quiet", no_argument, NULL, 'q'},         {"set", required_argument, NULL, 's'},
+	{"threads", required_argument, NULL, 't'}, {"realtime", optional_argument, NULL, 'r'},
+	{"steps", required_argument, NULL, 'n'},   {0},
 };
 
 static const char* option_name(void* context, int index) {
@@ -64,6 +61,15 @@ static int read_speed(const char* command, SceneOptions* options) {
 						   optarg);
 }
 
+static int read_steps(const char* command, SceneOptions* options) {
+	char* end = NULL;
+	errno = 0;
+	if (strcmp(command, "run") != 0) return app_usage_error(command, "--steps is an option of 'jounce run'");
+	options->steps = strtol(optarg, &end, 10);
+	if (errno == 0 && end != optarg && *end == '\0' && options->steps >= 1) return EXIT_DONE;
+	return app_usage_error(command, "--steps: '%s' is no whole number from 1", optarg);
+}
+
 static int read_option(const char* command, int option, char** arguments, SceneOptions* options) {
 	switch (option) {
 	case 'h':
@@ -75,6 +81,8 @@ static int read_option(const char* command, int option, char** arguments, SceneO
 	case 'q':
 		options->is_quiet = true;
 		return EXIT_DONE;
+	case 'n':
+		return read_steps(command, options);
 	case 'r':
 		return read_speed(command, options);
 	case 's':

@@ -11,6 +11,7 @@ typedef struct SceneOptions {
 	const char* directory; ///< -o; NULL: out/<scene name>
 	int threads;           ///< --threads; 0: all
 	double speed;          ///< --realtime, of `run` alone: simulated seconds a wall second; 0: not given
+	long steps;            ///< --steps, of `run` alone; 0: all
 	bool is_quiet;         ///< --quiet
 	bool wants_help;       ///< --help was given
 	int set_count;

@@ -31,7 +31,7 @@ static JnStatus find_file(const char* folder, Recording* recording) {
 }
 
 static JnStatus open_file(Recording* recording) {
-	recording->file = H5Fopen(recording->path, H5F_ACC_RDONLY, H5P_DEFAULT);
+	recording->file = recording_file_enter(recording->path);
 	if (recording->file >= 0) return JN_OK;
 	if (H5Fis_hdf5(recording->path) > 0)
 		return jn_error(

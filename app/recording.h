@@ -22,6 +22,7 @@ typedef struct RecordingBody {
 	int carrier_count;            ///< of an embedded surface: nodes that carry a point
 	const int* carriers;          ///< carrier_count * point_count numbers of nodes of the recording; NULL: not embedded
 	const double* weights;        ///< their shares; a field at a point is the sum of weight * value
+	const double* point_rest;     ///< of an embedded surface: 3 * point_count [m]
 	int triangle_count;
 	const int* triangles;   ///< 3 * triangle_count numbers of points of the recording, outward; none of points
 	const double* volumes;  ///< of points: node_count [m^3]; NULL: unknown, or not points
@@ -49,7 +50,7 @@ typedef struct Recording {
 	JnArena arena;
 	hid_t file;
 	const char* path; ///< of run.h5
-	const char *scene_name, *scene_path, *scene_text, *method, *host, *created;
+	const char *scene_name, *scene_path, *scene_text, *method, *host, *created, *version;
 	const char *outcome, *message; ///< "running", "done", "failed", "interrupted"; one line, or ""
 	double total_mass;             ///< [kg]
 	double gravity[3];             ///< [m/s^2]; 0: none, or not recorded

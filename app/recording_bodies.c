@@ -90,8 +90,9 @@ static JnStatus read_surface(Recording* recording, RecordingBody* body) {
 static JnStatus read_carriers(Recording* recording, RecordingBody* body) {
 	const Object nodes = part_of("mesh", body->name, "surface/nodes");
 	const Object weights = part_of("mesh", body->name, "surface/weights");
-	int *numbers, count, rows;
-	double* shares;
+	const Object rest = part_of("mesh", body->name, "surface/rest");
+	int *numbers, count, rows, points;
+	double *shares, *point_rest;
 	if (!body->is_embedded) return JN_OK;
 	const hssize_t entries = recording_file_measure(recording->file, nodes.path);
 	if (body->point_count == 0 || entries <= 0 || entries % body->point_count != 0 || entries > INT32_MAX)
@@ -99,10 +100,12 @@ static JnStatus read_carriers(Recording* recording, RecordingBody* body) {
 	body->carrier_count = (int)(entries / body->point_count);
 	JN_TRY(recording_numbers(recording, nodes.path, body->carrier_count, &numbers, &count));
 	JN_TRY(recording_reals(recording, weights.path, body->carrier_count, &shares, &rows));
+	JN_TRY(recording_reals(recording, rest.path, 3, &point_rest, &points));
 	body->carriers = numbers;
 	body->weights = shares;
+	body->point_rest = point_rest;
 	const long end = (long)body->first_node + body->node_count;
-	const bool fits = count == body->point_count && rows == count &&
+	const bool fits = count == body->point_count && rows == count && points == count &&
 					  recording_are_within(numbers, (size_t)entries, body->first_node, end);
 	return fits ? JN_OK : recording_damaged(recording, nodes.path);
 }
@@ -123,13 +126,15 @@ static int compare_bodies(const void* a, const void* b) {
 
 /// The points follow each other, body by body, unless they are the nodes.
 static JnStatus count_points(Recording* recording) {
-	long end = 0;
+	long end = 0, all = 0;
 	for (int i = 0; i < recording->body_count; ++i) {
 		const RecordingBody* body = &recording->bodies[i];
 		recording->has_embedding |= body->is_embedded;
+		all += body->point_count;
 		if (end < (long)body->first_point + body->point_count) end = (long)body->first_point + body->point_count;
 	}
-	if (end > INT32_MAX || (!recording->has_embedding && end > recording->node_count))
+	if (end > INT32_MAX || (recording->has_embedding && end > all) ||
+		(!recording->has_embedding && end > recording->node_count))
 		return recording_damaged(recording, "/mesh");
 	recording->point_count = recording->has_embedding ? (int)end : recording->node_count;
 	return JN_OK;

@@ -1,4 +1,5 @@
 // The attributes of run.h5, the scene, the times of its frames, and what there is in them.
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -26,8 +27,8 @@ JnStatus recording_read_facts(Recording* recording) {
 	} texts[] = {
 		{"scene_name", &recording->scene_name}, {"scene_path", &recording->scene_path},
 		{"method", &recording->method},         {"host", &recording->host},
-		{"created", &recording->created},       {"outcome", &recording->outcome},
-		{"message", &recording->message},
+		{"created", &recording->created},       {"jounce_version", &recording->version},
+		{"outcome", &recording->outcome},       {"message", &recording->message},
 	};
 	for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i) {
 		*texts[i].text = recording_attribute_text(recording, "/", texts[i].name, "");
@@ -55,7 +56,7 @@ static JnStatus read_times(Recording* recording) {
 }
 
 /// What stands in the first frame beside position, velocity and surface.
-static JnStatus read_fields(Recording* recording) {
+JnStatus recording_read_fields(Recording* recording) {
 	const char* const* names;
 	RecordingField* fields;
 	int count;
@@ -68,11 +69,11 @@ static JnStatus read_fields(Recording* recording) {
 		const bool is_other =
 			strcmp(names[i], "position") == 0 || strcmp(names[i], "velocity") == 0 || strcmp(names[i], "surface") == 0;
 		if (is_other || values <= 0 || values % recording->node_count != 0) continue;
-		const int components = (int)(values / recording->node_count);
+		const hssize_t components = values / recording->node_count;
 		const char* unit = recording_attribute_text(recording, object, "unit", "");
 		if (unit == NULL) return JN_OUT_OF_MEMORY;
 		if (components == 1 || components == 3)
-			fields[recording->field_count++] = (RecordingField){names[i], unit, components};
+			fields[recording->field_count++] = (RecordingField){names[i], unit, (int)components};
 	}
 	recording->fields = fields;
 	return JN_OK;
@@ -81,6 +82,7 @@ static JnStatus read_fields(Recording* recording) {
 static JnStatus read_columns(Recording* recording) {
 	const char* const* names;
 	RecordingColumn* columns;
+	hssize_t steps = 0;
 	JN_TRY(recording_names(recording, "/series", &names, &recording->column_count));
 	JN_NEW(&recording->arena, columns, recording->column_count + 1);
 	for (int i = 0; i < recording->column_count; ++i) {
@@ -88,10 +90,11 @@ static JnStatus read_columns(Recording* recording) {
 		snprintf(object, sizeof object, "/series/%s", names[i]);
 		columns[i] = (RecordingColumn){names[i], recording_attribute_text(recording, object, "unit", "")};
 		if (columns[i].unit == NULL) return JN_OUT_OF_MEMORY;
-		if (i == 0) recording->step_count = (int)recording_file_measure(recording->file, object);
+		if (i == 0) steps = recording_file_measure(recording->file, object);
 	}
 	recording->columns = columns;
-	return recording->step_count >= 0 ? JN_OK : recording_damaged(recording, "/series");
+	recording->step_count = (int)steps;
+	return steps >= 0 && steps <= INT_MAX ? JN_OK : recording_damaged(recording, "/series");
 }
 
 JnStatus recording_read_frames(Recording* recording) {
@@ -99,7 +102,12 @@ JnStatus recording_read_frames(Recording* recording) {
 	if (recording->frame_count < 1)
 		return jn_error(JN_BAD_INPUT, "%s: there are no frames yet; wait until the run has written one",
 						recording->path);
+	const hssize_t frames = recording_file_links(recording->file, "/frames");
+	if (recording->frame_count > frames)
+		return jn_error(JN_BAD_INPUT,
+						"%s: /frames declares %d frames, but holds %lld: the recording is damaged; run the scene again",
+						recording->path, recording->frame_count, (long long)frames);
 	JN_TRY(read_times(recording));
-	JN_TRY(read_fields(recording));
+	JN_TRY(recording_read_fields(recording));
 	return read_columns(recording);
 }

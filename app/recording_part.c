@@ -13,6 +13,18 @@ JnStatus recording_damaged(const Recording* recording, const char* object) {
 					recording->path, object);
 }
 
+/// JN_BAD_INPUT, after a message, when a dataset declares more numbers than the file has.
+static JnStatus check_size(const Recording* recording, const char* object) {
+	const RecordingSize size = recording_file_size(recording->file, object);
+	if (size.entries < 0) return recording_damaged(recording, object);
+	if (size.entries <= size.most) return JN_OK;
+	return jn_error(
+		JN_BAD_INPUT,
+		"%s: %s declares %lld numbers, but the file has bytes for %lld at most: the recording is damaged; run "
+		"the scene again",
+		recording->path, object, (long long)size.entries, (long long)size.most);
+}
+
 /// Rows of an array of `columns` numbers each that is one- or two-dimensional; -1 when it is anything else.
 static int measure(const Recording* recording, const char* object, int columns) {
 	const hid_t dataset = H5Dopen2(recording->file, object, H5P_DEFAULT);
@@ -33,6 +45,7 @@ static JnStatus read(Recording* recording, const char* object, int columns, hid_
 }
 
 JnStatus recording_numbers(Recording* recording, const char* object, int columns, int** numbers, int* rows) {
+	JN_TRY(check_size(recording, object));
 	*rows = measure(recording, object, columns);
 	if (*rows < 0) return recording_damaged(recording, object);
 	JN_NEW(&recording->arena, *numbers, (size_t)*rows * (size_t)columns + 1);
@@ -40,6 +53,7 @@ JnStatus recording_numbers(Recording* recording, const char* object, int columns
 }
 
 JnStatus recording_reals(Recording* recording, const char* object, int columns, double** reals, int* rows) {
+	JN_TRY(check_size(recording, object));
 	*rows = measure(recording, object, columns);
 	if (*rows < 0) return recording_damaged(recording, object);
 	JN_NEW(&recording->arena, *reals, (size_t)*rows * (size_t)columns + 1);

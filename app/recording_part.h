@@ -9,6 +9,7 @@ JnStatus recording_read_facts(Recording* recording);     ///< who, where, how it
 JnStatus recording_read_bodies(Recording* recording);    ///< nodes, bodies and their surfaces
 JnStatus recording_read_obstacles(Recording* recording); ///< what never moves
 JnStatus recording_read_frames(Recording* recording);    ///< times and fields of the frames, columns of the series
+JnStatus recording_read_fields(Recording* recording);    ///< what the first frame has, of which there is one
 
 /// Say that `object` is not in the file, or not as it should be.
 JnStatus recording_damaged(const Recording* recording, const char* object);

@@ -65,7 +65,7 @@ static JnStatus name_picture(const Render* render, int number, char folder[JN_PA
 	const char *dot = strrchr(last, '.'), *mark = strchr(last, '%');
 	int digits = 0, end = 0;
 	snprintf(folder, JN_PATH_SIZE, "%.*s", slash != NULL ? (int)(slash - path) : 1, slash != NULL ? path : ".");
-	if (slash == path) strcpy(folder, "/");
+	if (slash == path) snprintf(folder, JN_PATH_SIZE, "/");
 	if (strlen(last) > 200) return jn_error(JN_IO_FAILED, "%s: the name is too long", path);
 	if (mark != NULL && mark[1] == 'd') end = 2;
 	if (mark != NULL && end == 0) sscanf(mark, "%%%2dd%n", &digits, &end);

@@ -7,6 +7,7 @@
 
 #include "app.h"
 #include "options.h"
+#include "recording_file.h"
 
 enum { MOST_PIXELS = 8192, MOST_SAMPLES = 4, MOST_NUMBERS = 6 }; // what SwiftShader draws into at once
 
@@ -52,6 +53,11 @@ static int read_size(RenderJob* job) {
 	return EXIT_DONE;
 }
 
+// -0 and 0 are one place.
+static bool is_same_point(const double a[3], const double b[3]) {
+	return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 // "azimuth,elevation[,zoom]", or "x,y,z/x,y,z".
 static int read_camera(RenderCamera* camera) {
 	double numbers[MOST_NUMBERS];
@@ -61,7 +67,7 @@ static int read_camera(RenderCamera* camera) {
 	if (count == 3 && *end == '/') {
 		const char* behind = "";
 		camera->has_points = read_numbers(end + 1, ',', 3, numbers + 3, &behind) == 3 && *behind == '\0' &&
-							 memcmp(numbers, numbers + 3, 3 * sizeof *numbers) != 0;
+							 !is_same_point(numbers, numbers + 3);
 		memcpy(camera->eye, numbers, sizeof camera->eye);
 		memcpy(camera->target, numbers + 3, sizeof camera->target);
 	} else if (count >= 2 && *end == '\0') {
@@ -227,6 +233,7 @@ int render_options_read(int count, char** arguments, RenderOptions* options) {
 	}
 	options->folder_count = count - optind;
 	options->folders = arguments + optind;
+	for (int i = optind; i < count; ++i) recording_file_fold(&arguments[i]);
 	if (options->film != NULL) options->job.kind = RENDER_RAW;
 	return options->wants_help ? EXIT_DONE : check(options);
 }

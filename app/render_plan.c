@@ -109,11 +109,11 @@ static double choose_speed(double span) {
 	static const double steps[] = {1, 2, 5};
 	if (!(span > 0)) return 1;
 	for (int i = 0; span < SHORTEST && i < 60; ++i) {
-		const double slower = steps[i % 3] * pow(10, i / 3);
+		const double slower = steps[i % 3] * pow(10, (int)(i / 3));
 		if (span * slower >= SHORTEST) return 1 / slower;
 	}
 	for (int i = 0; span > LONGEST && i < 60; ++i) {
-		const double faster = steps[i % 3] * pow(10, i / 3);
+		const double faster = steps[i % 3] * pow(10, (int)(i / 3));
 		if (span / faster <= LONGEST) return faster;
 	}
 	return 1;

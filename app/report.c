@@ -8,6 +8,7 @@
 #include "app.h"
 #include "interrupt.h"
 #include "options.h"
+#include "recording_file.h"
 #include "render_sources.h"
 
 enum { USUAL_PICTURES = 6, MOST_PICTURES = 60 };
@@ -85,6 +86,7 @@ static int read_options(int count, char** arguments, Command* command) {
 	if (count - optind > REPORT_MOST_RUNS)
 		return app_usage_error("report", "%d runs are too many for one page; at most %d", count - optind,
 							   REPORT_MOST_RUNS);
+	for (int i = optind; i < count; ++i) recording_file_fold(&arguments[i]);
 	return EXIT_DONE;
 }
 

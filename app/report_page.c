@@ -76,7 +76,7 @@ static void print_title(Report* report) {
 		return;
 	}
 	for (int i = 0; i < report->count; ++i) {
-		const char* name = report->sources->list[i].run.facts.name;
+		const char* name = report->sources->list[i].run.recording.scene_name;
 		if (before != NULL && strcmp(name, before) == 0) continue;
 		if (before != NULL) jn_text_print(&report->file, ", ");
 		report_text(report, name);
@@ -102,17 +102,18 @@ static void print_head(Report* report) {
 // ---- warnings ----
 
 static bool is_done(const ViewRun* run) {
-	return strcmp(run->facts.outcome, "done") == 0;
+	return strcmp(run->recording.outcome, "done") == 0;
 }
 
 static void print_outcome(Report* report, int index) {
 	const ViewRun* run = &report->sources->list[index].run;
-	const bool is_unfinished = strcmp(run->facts.outcome, "running") == 0 && !view_run_is_running(run);
+	const bool is_unfinished = strcmp(run->recording.outcome, "running") == 0 && !view_run_is_running(run);
 	jn_text_print(&report->file, "<p>");
 	report_text(report, report->names[index]);
-	jn_text_print(&report->file, ": %s", is_unfinished ? "ended before its end, without a word" : run->facts.outcome);
-	if (*run->facts.message != '\0') jn_text_print(&report->file, ": ");
-	report_text(report, run->facts.message);
+	jn_text_print(&report->file, ": %s",
+				  is_unfinished ? "ended before its end, without a word" : run->recording.outcome);
+	if (*run->recording.message != '\0') jn_text_print(&report->file, ": ");
+	report_text(report, run->recording.message);
 	jn_text_print(&report->file, "</p>\n");
 }
 
@@ -184,7 +185,7 @@ JnStatus report_write_folders(const ReportOptions* options, int count, const cha
 	H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // the words are ours
 	for (int i = 0; i < count && sources.count < REPORT_MOST_RUNS; ++i) {
 		ViewSource* source = &sources.list[sources.count];
-		*source = (ViewSource){.folder = folders[i], .run.file = -1};
+		*source = (ViewSource){.folder = folders[i], .run.recording.file = -1};
 		view_source_open(source);
 		if (source->is_open && source->run.frame_count > 0)
 			++sources.count;

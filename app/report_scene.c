@@ -138,11 +138,11 @@ static void keep_silent(void* user, JnLogLevel level, const char* message) {
 }
 
 void report_differences(Report* report) {
-	Scene scenes[REPORT_MOST_RUNS];
+	Scene scenes[REPORT_MOST_RUNS] = {0};
 	if (report->count < 2) return;
 	const JnLog log = jn_log_swap((JnLog){keep_silent, NULL}); // what cannot be parsed has no keys
 	for (int i = 0; i < report->count; ++i)
-		read_scene(&report->arena, report->sources->list[i].run.facts.scene, &scenes[i]);
+		read_scene(&report->arena, report->sources->list[i].run.recording.scene_text, &scenes[i]);
 	jn_log_swap(log);
 	jn_text_print(&report->file,
 				  "<section><h2>What differs between the scenes</h2><div class=\"wide\"><table><thead><tr><td></td>");
@@ -164,7 +164,8 @@ void report_differences(Report* report) {
 
 static bool is_first_with_text(const Report* report, int run) {
 	for (int i = 0; i < run; ++i)
-		if (strcmp(report->sources->list[i].run.facts.scene, report->sources->list[run].run.facts.scene) == 0)
+		if (strcmp(report->sources->list[i].run.recording.scene_text,
+				   report->sources->list[run].run.recording.scene_text) == 0)
 			return false;
 	return true;
 }
@@ -172,14 +173,14 @@ static bool is_first_with_text(const Report* report, int run) {
 void report_scenes(Report* report) {
 	jn_text_print(&report->file, "<section><h2>Scene</h2>\n");
 	for (int i = 0; i < report->count; ++i) {
-		const ViewFacts* facts = &report->sources->list[i].run.facts;
+		const Recording* recording = &report->sources->list[i].run.recording;
 		if (!is_first_with_text(report, i)) continue;
 		jn_text_print(&report->file, "<details%s><summary>", report->count == 1 ? " open" : "");
 		report_text(report, report->names[i]);
 		jn_text_print(&report->file, ": ");
-		report_text(report, facts->scene_path);
+		report_text(report, recording->scene_path);
 		jn_text_print(&report->file, "</summary><pre>");
-		report_text(report, facts->scene);
+		report_text(report, recording->scene_text);
 		jn_text_print(&report->file, "</pre></details>\n");
 	}
 	jn_text_print(&report->file, "</section>\n");

@@ -34,7 +34,7 @@ static const struct {
 };
 
 double report_number(const Report* report, int run, const char* name) {
-	const char* summary = report->sources->list[run].run.facts.summary;
+	const char* summary = report->sources->list[run].run.summary;
 	return summary != NULL ? compare_summary_number(summary, name) : NAN;
 }
 
@@ -72,23 +72,23 @@ static void print_numbers(Report* report, const char* label, const char* unit,
 }
 
 static const char* outcome_of(const ViewRun* run) {
-	return run->facts.outcome;
+	return run->recording.outcome;
 }
 
 static const char* method_of(const ViewRun* run) {
-	return run->facts.method;
+	return run->recording.method;
 }
 
 static const char* host_of(const ViewRun* run) {
-	return run->facts.host;
+	return run->recording.host;
 }
 
 static const char* version_of(const ViewRun* run) {
-	return run->facts.version;
+	return run->recording.version;
 }
 
 static const char* created_of(const ViewRun* run) {
-	return run->facts.created;
+	return run->recording.created;
 }
 
 static double last_time(Report* report, int run) {
@@ -101,7 +101,7 @@ static double frames_of(Report* report, int run) {
 }
 
 static double nodes_of(Report* report, int run) {
-	return report->sources->list[run].run.node_count;
+	return report->sources->list[run].run.recording.node_count;
 }
 
 static double cells_of(Report* report, int run) {
@@ -112,7 +112,7 @@ static double cells_of(Report* report, int run) {
 }
 
 static double mass_of(Report* report, int run) {
-	return report->sources->list[run].run.facts.total_mass;
+	return report->sources->list[run].run.recording.total_mass;
 }
 
 // Root mean square of the distances of the drawn points in the last frame from those of the first run, when both are of
@@ -221,7 +221,7 @@ static void print_bar(Report* report, const Phase* phases, int count, double lon
 
 static void print_phases(Report* report, int run, double longest) {
 	Phase phases[MOST_PHASES];
-	const char* summary = report->sources->list[run].run.facts.summary;
+	const char* summary = report->sources->list[run].run.summary;
 	const int count = summary != NULL ? list_phases(summary, phases) : 0;
 	if (count == 0) return;
 	jn_text_print(&report->file, "<p class=\"phases\">");

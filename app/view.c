@@ -45,8 +45,10 @@ static int serve(const ViewOptions* options, ViewSources* sources, ViewLive* liv
 	return EXIT_DONE;
 }
 
-static int save(const ViewOptions* options, ViewSources* sources) {
+static int save(const ViewOptions* options, ViewSources* sources, ViewLive* live) {
 	ViewSaved saved;
+	app_catch_interrupts(0);
+	if (live->process > 0) view_live_wait(live, &sources->list[0]);
 	int open_count = 0;
 	for (int i = 0; i < sources->count; ++i) open_count += sources->list[i].is_open;
 	if (open_count < sources->count) return EXIT_FILE_FAILED; // what is wrong has been said
@@ -57,20 +59,23 @@ static int save(const ViewOptions* options, ViewSources* sources) {
 		printf(", with %ld of %ld frames, to stay within %g MB; --limit sets that", saved.frames, saved.of_frames,
 			   options->limit);
 	printf("\n");
-	return EXIT_DONE;
+	return live->has_failed ? EXIT_RUN_FAILED : EXIT_DONE;
 }
 
-static bool is_folder(const char* path) {
+// Folders, and what is not there, are recordings, unless a name that is not there ends as those of scenes do.
+static bool is_scene(const char* path) {
 	struct stat facts;
-	return stat(path, &facts) != 0 || S_ISDIR(facts.st_mode);
+	const char* end = strrchr(path, '.');
+	if (stat(path, &facts) != 0) return end != NULL && strcmp(end, ".yaml") == 0;
+	return !S_ISDIR(facts.st_mode) && H5Fis_hdf5(path) <= 0;
 }
 
 static void open_sources(ViewSources* sources, const ViewOptions* options, const ViewLive* live) {
-	const bool is_live = live->process > 0;
+	const bool is_live = live->folder[0] != '\0';
 	for (int i = 0; i < sources->count; ++i) {
 		ViewSource* source = &sources->list[i];
-		*source =
-			(ViewSource){.folder = is_live ? live->folder : options->names[i], .is_awaited = is_live, .run.file = -1};
+		*source = (ViewSource){
+			.folder = is_live ? live->folder : options->names[i], .is_awaited = is_live, .run.recording.file = -1};
 		if (is_live) continue;
 		view_source_open(source);
 		if (!source->is_open) fprintf(stderr, "jounce: error: %s\n", source->error);
@@ -79,17 +84,15 @@ static void open_sources(ViewSources* sources, const ViewOptions* options, const
 
 static int view(const ViewOptions* options, ViewSources* sources) {
 	ViewLive live = {0};
-	if (!is_folder(options->names[0])) {
+	H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // the words are ours
+	if (is_scene(options->names[0])) {
 		if (options->name_count > 1)
 			return app_usage_error("view", "one scene at a time; '%s' is one too many", options->names[1]);
-		if (options->save != NULL)
-			return app_usage_error("view", "--save needs a recording: run the scene first, and view its folder");
 		const JnStatus status = view_live_start(&live, options);
 		if (status != JN_OK) return app_exit_status(status);
 	}
-	H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // the words are ours
 	open_sources(sources, options, &live);
-	const int status = options->save != NULL ? save(options, sources) : serve(options, sources, &live);
+	const int status = options->save != NULL ? save(options, sources, &live) : serve(options, sources, &live);
 	view_live_stop(&live);
 	for (int i = 0; i < sources->count; ++i) view_run_close(&sources->list[i].run);
 	return status;

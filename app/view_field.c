@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/log.h"
-#include "recording_file.h"
+#include "recording_part.h"
 
 static const char energy_name[] = "strain_energy_density", stress_name[] = "stress";
 
@@ -13,36 +13,23 @@ enum { COMPUTED_FIELDS = 3 };
 
 // ---- the list ----
 
-static herr_t meet_field(hid_t group, const char* name, const H5L_info_t* info, void* user) {
-	static const char* const own[] = {"position", "velocity", "surface"};
-	ViewRun* run = user;
-	(void)group, (void)info;
-	for (size_t i = 0; i < sizeof own / sizeof *own; ++i)
-		if (strcmp(name, own[i]) == 0) return 0;
-	if (strlen(name) >= sizeof run->fields->name) return 0;
-	if (run->fields != NULL) snprintf(run->fields[run->field_count].name, sizeof run->fields->name, "%s", name);
-	run->field_count++;
-	return 0;
-}
-
-static JnStatus meet_fields(ViewRun* run) {
-	run->field_count = 0;
-	if (run->frame_count == 0) return JN_OK;
-	return recording_file_visit(run->file, "/frames/00000000", meet_field, run);
-}
-
-static JnStatus describe_field(ViewRun* run, ViewField* field) {
-	char path[160], *unit = NULL;
-	snprintf(path, sizeof path, "/frames/00000000/%s", field->name);
-	JN_TRY(recording_file_text(run->file, path, "unit", &run->arena, &unit));
-	snprintf(field->unit, sizeof field->unit, "%s", unit);
-	field->components = recording_file_measure(run->file, path) == run->node_count ? 1 : 3;
+// What stands in the first frame beside position, velocity and surface.
+static JnStatus list_recorded(ViewRun* run) {
+	const Recording* recording = &run->recording;
+	if (run->frame_count > 0) JN_TRY(recording_read_fields(&run->recording));
+	JN_NEW(&run->arena, run->fields, recording->field_count + COMPUTED_FIELDS);
+	for (int i = 0; i < recording->field_count; ++i) {
+		ViewField* field = &run->fields[run->field_count++];
+		field->components = recording->fields[i].components;
+		snprintf(field->name, sizeof field->name, "%s", recording->fields[i].name);
+		snprintf(field->unit, sizeof field->unit, "%s", recording->fields[i].unit);
+	}
 	return JN_OK;
 }
 
 // What can be told without building the model.
 static void add_elastic(ViewRun* run) {
-	bool has_volume = false, has_surface = false, has_solid = false;
+	bool has_volume = false, has_surface = false, has_solid = false, has_bonds = false;
 	for (int b = 0; b < run->body_count; ++b) {
 		const ViewBody* body = &run->bodies[b];
 		const bool is_volume = strncmp(body->shape, "tet", 3) == 0 || strncmp(body->shape, "hex", 3) == 0;
@@ -50,21 +37,21 @@ static void add_elastic(ViewRun* run) {
 		has_surface |= strncmp(body->shape, "tri", 3) == 0;
 		has_solid |= is_volume && body->kind != VIEW_THREAD;
 	}
+	for (int i = 0; i < run->field_count; ++i) has_bonds |= strcmp(run->fields[i].name, "damage") == 0;
 	ViewField* energy = &run->fields[run->field_count++];
 	ViewField* stress = &run->fields[run->field_count++];
 	snprintf(energy->name, sizeof energy->name, "%s", energy_name);
 	snprintf(energy->unit, sizeof energy->unit, has_volume || !has_surface ? "J/m³" : "J/m²");
-	if (!has_volume && !has_surface) snprintf(energy->absent, sizeof energy->absent, "no body with elements");
+	if (!has_volume && !has_surface)
+		snprintf(energy->absent, sizeof energy->absent,
+				 has_bonds ? "which bonds are whole is not recorded" : "no body with elements");
 	snprintf(stress->name, sizeof stress->name, "%s", stress_name);
 	snprintf(stress->unit, sizeof stress->unit, "Pa");
 	if (!has_solid) snprintf(stress->absent, sizeof stress->absent, "no solid elements");
 }
 
 JnStatus view_fields_list(ViewRun* run) {
-	JN_TRY(meet_fields(run));
-	JN_NEW(&run->arena, run->fields, run->field_count + COMPUTED_FIELDS);
-	JN_TRY(meet_fields(run));
-	for (int i = 0; i < run->field_count; ++i) JN_TRY(describe_field(run, &run->fields[i]));
+	JN_TRY(list_recorded(run));
 	run->fields[run->field_count++] = (ViewField){.name = "speed", .unit = "m/s", .components = 3};
 	add_elastic(run);
 	return JN_OK;
@@ -78,24 +65,16 @@ static void keep_reason(void* user, JnLogLevel level, const char* message) {
 }
 
 static JnStatus build_elastic(ViewRun* run) {
-	int count = (int)recording_file_measure(run->file, "/mesh/nodes");
-	JnArena arena = {0};
-	double* rest = jn_arena_take(&arena, (size_t)count + 1, sizeof *rest);
-	JnStatus status = rest != NULL ? JN_OK : JN_OUT_OF_MEMORY;
-	if (status == JN_OK) status = recording_file_array(run->file, "/mesh/nodes", H5T_NATIVE_DOUBLE, count, rest);
-	const ViewFacts* facts = &run->facts;
-	if (status == JN_OK) status = view_elastic_open(&run->elastic, facts->scene_path, facts->scene, count / 3, rest);
-	jn_arena_free(&arena);
-	return status;
+	const Recording* recording = &run->recording;
+	return view_elastic_open(&run->elastic, recording->scene_path, recording->scene_text, recording->node_count,
+							 recording->rest);
 }
 
 static JnStatus prepare_elastic(ViewRun* run) {
 	if (run->has_tried_elastic) return run->elastic.buffer != NULL ? JN_OK : JN_BAD_INPUT;
-	JN_TRY(view_run_enter(run));
 	const JnLog log = jn_log_swap((JnLog){keep_reason, run});
 	const JnStatus status = build_elastic(run);
 	jn_log_swap(log);
-	view_run_leave(run);
 	run->has_tried_elastic = true;
 	if (status == JN_OK) return JN_OK;
 	view_elastic_close(&run->elastic);
@@ -111,7 +90,7 @@ static JnStatus prepare_elastic(ViewRun* run) {
 // values at nodes, into run->values
 static JnStatus compute(ViewRun* run, const char* name, long frame) {
 	JN_TRY(prepare_elastic(run));
-	JN_TRY(view_run_read(run, frame, "position", run->node_count, 3, run->scratch));
+	JN_TRY(view_run_read(run, frame, "position", run->recording.node_count, 3, run->scratch));
 	(strcmp(name, stress_name) == 0 ? view_elastic_stress : view_elastic_energy)(&run->elastic, run->scratch,
 																				 run->values);
 	return JN_OK;
@@ -119,12 +98,24 @@ static JnStatus compute(ViewRun* run, const char* name, long frame) {
 
 static JnStatus look_up(ViewRun* run, const ViewField* field, long frame) {
 	const char* dataset = strcmp(field->name, "speed") == 0 ? "velocity" : field->name;
-	JN_TRY(view_run_read(run, frame, dataset, run->node_count, field->components, run->scratch));
-	for (int i = 0; i < run->node_count; ++i) {
+	JN_TRY(view_run_read(run, frame, dataset, run->recording.node_count, field->components, run->scratch));
+	for (int i = 0; i < run->recording.node_count; ++i) {
 		const double* at = run->scratch + (ptrdiff_t)field->components * i;
 		run->values[i] = field->components == 3 ? hypot(hypot(at[0], at[1]), at[2]) : at[0];
 	}
 	return JN_OK;
+}
+
+// What no bond holds has no piece, number -1, and no damage either.
+static JnStatus hide_the_unbonded(ViewRun* run, long frame) {
+	JN_TRY(view_run_read(run, frame, "fragment", run->recording.node_count, 1, run->scratch));
+	for (int i = 0; i < run->recording.node_count; ++i)
+		if (run->scratch[i] < 0) run->values[i] = VIEW_ABSENT;
+	return JN_OK;
+}
+
+static bool is_of_bonds(const char* name) {
+	return strcmp(name, "damage") == 0 || strcmp(name, "fragment") == 0;
 }
 
 JnStatus view_field_read(ViewRun* run, const char* name, long frame, float* out) {
@@ -133,6 +124,7 @@ JnStatus view_field_read(ViewRun* run, const char* name, long frame, float* out)
 		if (strcmp(run->fields[i].name, name) == 0) field = &run->fields[i];
 	if (field == NULL || field->absent[0] != '\0') return JN_BAD_INPUT;
 	JN_TRY(field->components > 0 ? look_up(run, field, frame) : compute(run, name, frame));
+	if (is_of_bonds(name)) JN_TRY(hide_the_unbonded(run, frame));
 	view_map_apply(&run->nodes, 1, run->values, out);
 	for (int i = 0; i < run->points.count; ++i)
 		if (out[i] < 0.01f * (float)VIEW_ABSENT) out[i] = (float)VIEW_ABSENT; // some of its nodes have no value

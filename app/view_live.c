@@ -6,11 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/folder.h"
 #include "base/log.h"
 #include "compare_process.h"
+#include "interrupt.h"
 #include "jounce/scene.h"
 
 // The scene is read here first, so that its errors come before a browser opens.
@@ -88,11 +90,23 @@ void view_live_look(ViewLive* live, ViewSource* source) {
 		printf("the run has ended; its results are in %s\n", live->folder);
 	} else {
 		char line[VIEW_MESSAGE_BYTES];
+		live->has_failed = true;
 		read_last_line(live->log, line);
 		fprintf(stderr, "%s\n", line);
 		if (!source->is_open) snprintf(source->error, sizeof source->error, "%s", line);
 	}
 	fflush(stdout);
+}
+
+void view_live_wait(ViewLive* live, ViewSource* source) {
+	const struct timespec pause = {.tv_nsec = 50 * 1000 * 1000};
+	while (live->process != 0 && !app_interrupted) {
+		nanosleep(&pause, NULL);
+		view_live_look(live, source);
+	}
+	view_live_stop(live);
+	source->is_awaited = false;
+	view_source_open(source);
 }
 
 void view_live_stop(ViewLive* live) {

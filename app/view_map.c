@@ -6,7 +6,7 @@
 
 JnStatus view_map_add(ViewMap* map, int count, const int rows[], const double weights[]) {
 	const int first = map->count > 0 ? map->ends[map->count - 1] : 0;
-	const size_t entries = (size_t)(first + count);
+	const size_t entries = (size_t)first + (size_t)count;
 	JN_TRY(jn_grow((void**)&map->ends, &map->point_room, (size_t)map->count + 1, sizeof *map->ends));
 	JN_TRY(jn_grow((void**)&map->rows, &map->entry_room[0], entries, sizeof *map->rows));
 	JN_TRY(jn_grow((void**)&map->weights, &map->entry_room[1], entries, sizeof *map->weights));

@@ -1,11 +1,11 @@
 /// @file view_obstacles.h
-/// Obstacles of a recording.
+/// Things that never move.
 #ifndef JN_APP_VIEW_OBSTACLES_H
 #define JN_APP_VIEW_OBSTACLES_H
 
 #include "view_run.h"
 
-/// Read what never moves into run->obstacles and the arrays beside it. JN_IO_FAILED without a message.
-JnStatus view_obstacles_read(ViewRun* run);
+/// Join the obstacles of a recording: all points, all triangles. JN_BAD_INPUT after a message.
+JnStatus view_obstacles_join(ViewRun* run);
 
 #endif

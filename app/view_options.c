@@ -6,13 +6,15 @@
 
 #include "app.h"
 #include "options.h"
+#include "recording_file.h"
 
 const char view_help[] =
 	"usage: jounce view DIR... [--save PAGE.html] [options]\n"
-	"       jounce view SCENE [-o DIR] [--set key=value ...] [--threads N] [options]\n\n"
+	"       jounce view SCENE [-o DIR] [--set key=value ...] [--threads N] [--save PAGE.html] [options]\n\n"
 	"Shows recordings in the browser, several side by side; of a run in progress, frames appear as they are written.\n"
 	"A scene is run, as by `jounce run`, and viewed meanwhile.\n\n"
-	"      --save PAGE.html  write one file that shows the recordings without a server, and end\n"
+	"      --save PAGE.html  write one file that shows the recordings without a server, and end; of a scene, when it\n"
+	"                        has been run\n"
 	"      --limit MB        of that file; frames are left out, evenly, to stay within it; default 50\n"
 	"      --port N          of the page; default: any that is free\n"
 	"      --host ADDRESS    listen at this address instead of 127.0.0.1, so that others on the network can look\n"
@@ -88,6 +90,7 @@ int view_options_read(int count, char** arguments, ViewOptions* options) {
 	}
 	options->names = arguments + optind;
 	options->name_count = count - optind;
+	for (int i = optind; i < count; ++i) recording_file_fold(&arguments[i]);
 	if (!options->wants_help && options->name_count == 0)
 		return app_usage_error("view", "nothing to view is given: folders of results, or a scene");
 	return EXIT_DONE;

@@ -103,11 +103,11 @@ static void print_state(FILE* json, const ViewRun* run, long known) {
 		json_print_real(json, run->times[i]);
 	}
 	fputs("],\n", json);
-	json_print_text_entry(json, "outcome", run->facts.outcome);
-	json_print_text_entry(json, "message", run->facts.message);
+	json_print_text_entry(json, "outcome", run->recording.outcome);
+	json_print_text_entry(json, "message", run->recording.message);
 	fprintf(json, "\"is_running\": %s,\n", view_run_is_running(run) ? "true" : "false");
 	fputs("\"summary\": ", json);
-	json_print_text(json, run->facts.summary); // as a text: what is in that file is none of ours
+	json_print_text(json, run->summary); // as a text: what is in that file is none of ours
 }
 
 JnStatus view_pack_state(const ViewRun* run, long known, ViewBytes* out) {
@@ -172,17 +172,23 @@ static void print_fields(FILE* json, const ViewRun* run) {
 
 static void print_run(Pack* pack, const void* user) {
 	const ViewRun* run = user;
-	const ViewFacts* facts = &run->facts;
+	const Recording* facts = &run->recording;
 	const struct {
 		const char *name, *text;
-	} texts[] = {{"name", facts->name},       {"folder", run->folder}, {"scene_path", facts->scene_path},
-				 {"method", facts->method},   {"host", facts->host},   {"version", facts->version},
-				 {"created", facts->created}, {"scene", facts->scene}};
+	} texts[] = {{"name", facts->scene_name}, {"folder", run->folder},     {"scene_path", facts->scene_path},
+				 {"method", facts->method},   {"host", facts->host},       {"version", facts->version},
+				 {"created", facts->created}, {"scene", facts->scene_text}};
 	json_print_integer_entry(pack->json, "format", FORMAT);
 	for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i)
 		json_print_text_entry(pack->json, texts[i].name, texts[i].text);
 	json_print_real_entry(pack->json, "total_mass", facts->total_mass);
-	json_print_integer_entry(pack->json, "node_count", run->node_count);
+	fputs("\"gravity\": [", pack->json);
+	for (int i = 0; i < 3; ++i) {
+		if (i > 0) fputc(',', pack->json);
+		json_print_real(pack->json, facts->gravity[i]);
+	}
+	fputs("],\n", pack->json);
+	json_print_integer_entry(pack->json, "node_count", facts->node_count);
 	json_print_integer_entry(pack->json, "point_count", run->points.count);
 	print_shapes(pack->json, run);
 	print_fields(pack->json, run);

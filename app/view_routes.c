@@ -31,7 +31,7 @@ void view_source_open(ViewSource* source) {
 
 static void print_source(FILE* out, const ViewSource* source) {
 	fputs("{", out);
-	json_print_text_entry(out, "name", source->is_open ? source->run.facts.name : source->folder);
+	json_print_text_entry(out, "name", source->is_open ? source->run.recording.scene_name : source->folder);
 	fputs("\"folder\": ", out);
 	json_print_text(out, source->folder);
 	if (!source->is_open) {

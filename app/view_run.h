@@ -4,11 +4,10 @@
 #ifndef JN_APP_VIEW_RUN_H
 #define JN_APP_VIEW_RUN_H
 
-#include <hdf5.h>
 #include <stdbool.h>
 
-#include "base/arena.h"
 #include "record/text_file.h"
+#include "recording.h"
 #include "view_elastic.h"
 #include "view_map.h"
 
@@ -19,7 +18,7 @@ typedef enum ViewKind {
 } ViewKind;
 
 typedef struct ViewBody {
-	char name[80], shape[16];
+	const char *name, *shape;
 	ViewKind kind;
 	int first_node, node_count, cell_count;
 	int first_point, point_count;       ///< of the drawn points
@@ -29,7 +28,7 @@ typedef struct ViewBody {
 } ViewBody;
 
 typedef struct ViewObstacle {
-	char name[80];
+	const char* name;
 	int first_point, point_count, first_triangle, triangle_count;
 } ViewObstacle;
 
@@ -40,19 +39,12 @@ typedef struct ViewField {
 	char absent[256]; ///< why there are none; "": there are
 } ViewField;
 
-typedef struct ViewFacts {
-	char *name, *scene_path, *method, *version, *host, *created, *outcome, *message;
-	char* scene;   ///< text of the scene file
-	char* summary; ///< text of summary.json; NULL: there is none yet
-	double total_mass;
-} ViewFacts;
-
 typedef struct ViewRun {
 	char folder[JN_PATH_SIZE], path[JN_PATH_SIZE];
 	JnArena arena;
-	hid_t file; ///< < 0 while closed
-	ViewFacts facts;
-	int node_count, body_count, obstacle_count, field_count;
+	Recording recording; ///< facts, bodies, obstacles; its file is < 0 while closed
+	char* summary;       ///< text of summary.json; NULL: there is none yet
+	int body_count, obstacle_count, field_count;
 	ViewBody* bodies; ///< in the order of their nodes
 	ViewObstacle* obstacles;
 	ViewField* fields; ///< beside displacements, which the page knows
@@ -60,12 +52,10 @@ typedef struct ViewRun {
 	int* triangles;          ///< 3 * triangle_count numbers of drawn points
 	int* obstacle_triangles; ///< numbers of obstacle_points
 	float* obstacle_points;  ///< 3 * obstacle_point_count [m]
-	bool has_surface;        ///< frames have the points of surfaces, beside nodes
-	int row_count;           ///< rows of a frame's positions
-	ViewMap points;          ///< drawn points from those rows
+	ViewMap points;          ///< drawn points from the points of the recording
 	ViewMap nodes;           ///< drawn points from nodes, for fields
 	float* rest;             ///< of the drawn points, 3 * points.count [m]
-	double* scratch;         ///< 3 * max(row_count, node_count)
+	double* scratch;         ///< three for each node, or point of the recording
 	double* values;          ///< one a node
 	long frame_count;
 	double* times; ///< of the frames [s]
@@ -75,7 +65,7 @@ typedef struct ViewRun {
 	char elastic_reason[256]; ///< why there is none; "" when there is
 } ViewRun;
 
-/// Open run.h5 in `folder`. JN_IO_FAILED after a message when it is not there, is no recording or is cut off. To be closed
+/// Open run.h5 in `folder`. JN_IO_FAILED or JN_BAD_INPUT after a message when it is not there, is no recording or is cut off. To be closed
 /// in any case.
 JnStatus view_run_open(ViewRun* run, const char* folder);
 void view_run_close(ViewRun* run);
@@ -90,7 +80,7 @@ JnStatus view_run_refresh(ViewRun* run);
 /// out[3 * run->points.count]: where the drawn points are in a frame [m]. JN_IO_FAILED, without a message.
 JnStatus view_run_positions(ViewRun* run, long frame, float* out);
 
-/// Open the file, unless it is open, to read from run->file; and close it again if it is being written. JN_IO_FAILED,
+/// Open the file, unless it is open, to read from run->recording.file; and close it again if it is being written. JN_IO_FAILED,
 /// without a message.
 JnStatus view_run_enter(ViewRun* run);
 void view_run_leave(ViewRun* run);

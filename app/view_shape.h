@@ -5,7 +5,7 @@
 
 #include "view_run.h"
 
-/// Read bodies, obstacles and rest positions of an open recording. JN_IO_FAILED without a message.
-JnStatus view_shape_read(ViewRun* run);
+/// Make what is drawn of the bodies and obstacles of a recording. JN_BAD_INPUT or JN_OUT_OF_MEMORY after a message.
+JnStatus view_shape_make(ViewRun* run);
 
 #endif

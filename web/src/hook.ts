@@ -18,6 +18,8 @@ export function makeHook(viewer: Viewer) {
 		},
 		// What is shown now.
 		shown: () => ({ time: playback.time, frames: views.map((view) => view.frame), field: colouring.field }),
+		// Pictures that were drawn so far, and the pixels of the last one; for measure.mjs.
+		cost: () => ({ pictures: stage.drawnCount, pixels: [stage.canvas.width, stage.canvas.height] }),
 		// The picture as a data URL; drawn anew, since browsers forget what they have shown.
 		picture() {
 			stage.drawBest();

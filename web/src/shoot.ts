@@ -1,16 +1,16 @@
 // Pictures for `jounce render`: the command says which, in /api/job. Each is drawn larger than asked and averaged, which
 // smooths its edges, gets its words, and is handed back.
 import { write, type Words } from "./words";
+import type { Point } from "./data/upright";
 import type { Viewer } from "./viewer";
 
-type Point = [x: number, y: number, z: number];
 type Job = {
 	width: number;
 	height: number;
 	samples: number; // along each side of a pixel, beside those of the renderer
 	type: "raw" | "image/png" | "image/jpeg" | "image/webp"; // raw: red, green, blue, alpha, row by row from the top
 	times: number[]; // [s]
-	eye: Point | null; // instead of the camera of the address
+	eye: Point | null; // in the axes of the first scene; instead of the camera of the address
 	target: Point | null;
 	words: Words;
 };
@@ -38,8 +38,9 @@ class Desk {
 function aim(viewer: Viewer, { eye, target }: Job) {
 	if (!eye || !target) return;
 	const { camera, controls } = viewer.stage;
-	controls.target.set(...target);
-	camera.position.set(...eye);
+	const { upright } = viewer.views[0].run;
+	controls.target.set(...upright(target));
+	camera.position.set(...upright(eye));
 	controls.minDistance = 0;
 	controls.maxDistance = Infinity;
 	const distance = camera.position.distanceTo(controls.target);

@@ -56,10 +56,11 @@ export function clockOf(times: number[]): (time: number) => string {
 	return (time) => `${(time * scale).toFixed(digits)} ${unit}`;
 }
 
+// Times that are shown lie within the runs, whatever was asked for.
 function writeTime(pen: Pen, viewer: Viewer, size: number, times: number[]) {
 	const { views, playback } = viewer;
 	const time = views.length === 1 ? (views[0].run.times[views[0].frame] ?? 0) : playback.time;
-	const text = clockOf(times)(time);
+	const text = clockOf(times.map((wish) => Math.min(wish, playback.end)))(time);
 	const width = pen.measureText(text).width;
 	const right = pen.canvas.width - 1.4 * size;
 	const bottom = pen.canvas.height - 1.2 * size;

@@ -29,6 +29,7 @@ export class Workplace {
 		this.jounce("run", "small.yaml", "-o", "one", "-q");
 		const other = ["--set", "integrator.method=backward_euler", "--set", "record.interval=20ms"];
 		this.jounce("run", "small.yaml", "-o", "two", "-q", ...other);
+		this.jounce("run", "small.yaml", "-o", "upright", "-q", "--set", "gravity=[0, 0, -9.81]");
 		mkdirSync(join(this.folder, "half"));
 		mkdirSync(join(this.folder, "foreign"));
 		const whole = readFileSync(join(this.folder, "one/run.h5"));

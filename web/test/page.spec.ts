@@ -3,6 +3,7 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { expect, test, type Page } from "@playwright/test";
+import { uprightOf, type Point } from "../src/data/upright";
 import { Workplace } from "./command";
 
 let place: Workplace;
@@ -218,6 +219,42 @@ test("frames of a run appear as they are written", async ({ page }) => {
 	const count = () => page.evaluate(() => (window as any).jounce.runs[0].times.length);
 	const first = await count();
 	await expect.poll(count, { timeout: 20_000 }).toBeGreaterThan(first);
+});
+
+// Width and height of what has the colour of the first body.
+const measureBody = (page: Page): Promise<[number, number]> =>
+	page.evaluate(async () => {
+		const image = new Image();
+		image.src = (window as any).jounce.picture();
+		await image.decode();
+		const canvas = document.createElement("canvas");
+		[canvas.width, canvas.height] = [image.width, image.height];
+		const context = canvas.getContext("2d")!;
+		context.drawImage(image, 0, 0);
+		const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+		const isBlue = (at: number) => data[at + 2] > data[at] + 50;
+		const places = Array.from({ length: data.length / 4 }, (_, i) => i).filter((i) => isBlue(4 * i));
+		const [columns, rows] = [places.map((i) => i % canvas.width), places.map((i) => Math.floor(i / canvas.width))];
+		const extent = (list: number[]) => list.reduce((a, b) => Math.max(a, b)) - list.reduce((a, b) => Math.min(a, b));
+		return [extent(columns), extent(rows)];
+	});
+
+test("up is against gravity, along any axis, by a rotation", () => {
+	for (const axis of [0, 1, 2])
+		for (const sign of [1, -1]) {
+			const gravity = [0.1, 0.1, 0.1].map((g, i) => (i === axis ? 9.81 * sign : g)) as Point;
+			const turn = uprightOf(gravity);
+			expect(turn([...gravity] as Point)[1]).toBe(-9.81);
+			const [[a, b, c], [d, e, f], [g, h, i]] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map((unit) => turn(unit as Point));
+			expect(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)).toBe(1); // determinant
+		}
+	expect(uprightOf([0, 0, 0])([1, 2, 3])).toEqual([1, 2, 3]);
+});
+
+test("a bar along z stands when gravity is along z", async ({ page }) => {
+	await open(page, `${await place.view("upright")}?render&camera=30,10`);
+	const [width, height] = await measureBody(page);
+	expect(height).toBeGreaterThan(2 * width); // 1 m high, and 0.2 m wide, on its diagonal 0.28 m
 });
 
 test("gives programs bare pictures of a size and a frame", async ({ page }) => {

@@ -1,6 +1,7 @@
 // A recording as the page holds it: what never changes, and the frames that were asked for lately.
 import { isSaved } from "./saved";
 import type { RunState, Source } from "./source";
+import { uprightOf } from "./upright";
 
 export type Body = {
 	name: string;
@@ -19,7 +20,7 @@ export type Field = { name: string; unit: string; absent?: string };
 // The value of points that have none.
 export const isAbsent = (value: number) => value < -1e29;
 
-const CACHE_BYTES = 192 << 20; // of all runs together
+const CACHE_BYTES = 128 << 20; // of all runs together
 
 // Least recently used numbers go first.
 class Cache {
@@ -69,6 +70,7 @@ export class Run {
 	readonly obstaclePoints: Float32Array;
 	readonly obstacleTriangles: Int32Array;
 	readonly facts: Record<string, any>;
+	readonly upright: ReturnType<typeof uprightOf>; // from the axes of the scene to those of the page
 	times: number[];
 	state!: RunState;
 	summary: Record<string, any> = {};
@@ -86,9 +88,10 @@ export class Run {
 		this.obstacles = head.obstacles;
 		this.fields = head.fields;
 		this.pointCount = head.point_count;
-		this.rest = arrays.rest;
+		this.upright = uprightOf(head.gravity);
+		this.rest = this.upright(arrays.rest);
 		this.triangles = arrays.triangles;
-		this.obstaclePoints = arrays.obstacle_points;
+		this.obstaclePoints = this.upright(arrays.obstacle_points);
 		this.obstacleTriangles = arrays.obstacle_triangles;
 		this.take(head);
 		if (isSaved()) this.state.is_running = false;
@@ -134,7 +137,9 @@ export class Run {
 	}
 
 	positions(frame: number): Promise<Float32Array> {
-		return cache.get(`${this.index}/${frame}`, () => this.source.positions(this.index, frame));
+		return cache.get(`${this.index}/${frame}`, async () =>
+			this.upright(await this.source.positions(this.index, frame)),
+		);
 	}
 
 	field(name: string, frame: number): Promise<Float32Array> {

@@ -11,11 +11,11 @@ const best: Level = { ratio: 1, isSoft: true, shadowSize: 2048, shadowEvery: 1 }
 const levels: Level[] = [
 	best,
 	{ ratio: 1, isSoft: false, shadowSize: 1024, shadowEvery: 1 },
-	{ ratio: 0.7, isSoft: false, shadowSize: 1024, shadowEvery: 2 },
-	{ ratio: 0.5, isSoft: false, shadowSize: 512, shadowEvery: 2 },
+	{ ratio: 0.7, isSoft: false, shadowSize: 1024, shadowEvery: 3 },
+	{ ratio: 0.5, isSoft: false, shadowSize: 512, shadowEvery: 3 },
 ];
 
-const SLOW = 40; // [ms] between pictures: too much work
+const SLOW = 36; // [ms] between pictures, hardly fewer than 30 a second: too much work
 const FAST = 19; // [ms]: there is time for more
 const PATIENCE = 60; // pictures that were fast, before more is tried
 

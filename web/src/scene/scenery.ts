@@ -1,5 +1,6 @@
 // Light, ground and obstacles about a run.
 import {
+	Box3,
 	BufferAttribute,
 	BufferGeometry,
 	CircleGeometry,
@@ -10,10 +11,10 @@ import {
 	MeshStandardMaterial,
 	BasicShadowMap,
 	PCFShadowMap,
+	PlaneGeometry,
 	Scene,
 	ShaderMaterial,
 	ShadowMaterial,
-	type Box3,
 	Vector3,
 	type WebGLRenderer,
 } from "three";
@@ -93,15 +94,16 @@ const gridFragment = `
 uniform vec3 colour;
 uniform float cell, reach;
 varying vec2 place;
-float line(float size) {
+float line(float size, vec2 step) {
 	vec2 at = place / size;
-	vec2 width = fwidth(at);
+	vec2 width = step / size;
 	vec2 near = 1.0 - smoothstep(vec2(0.0), 1.4 * width, abs(fract(at - 0.5) - 0.5));
 	return max(near.x, near.y) * (1.0 - smoothstep(0.15, 0.5, max(width.x, width.y)));
 }
 void main() {
 	float fade = 1.0 - smoothstep(0.15, 1.0, length(place) / reach);
-	gl_FragColor = vec4(colour, fade * max(0.16 * line(cell), 0.4 * line(5.0 * cell)));
+	vec2 step = fwidth(place);
+	gl_FragColor = vec4(colour, fade * max(0.16 * line(cell, step), 0.4 * line(5.0 * cell, step)));
 }`;
 
 // 1, 2 or 5 times a power of ten, some fifteenth of a length: of a grid that can be read.
@@ -111,17 +113,27 @@ function cellOf(size: number): number {
 	return power * [5, 2, 1].find((digit) => digit * power <= wanted)!;
 }
 
+// Where the shadow of a box falls on the level `y`: what is outside needs no look at the shadow map.
+function shadowOf(box: Box3, y: number): Box3 {
+	const fallen = new Box3();
+	for (let corner = 0; corner < 8; ++corner) {
+		const [a, b, c] = [corner & 1, corner & 2, corner & 4].map((bit) => (bit ? box.max : box.min));
+		const point = new Vector3(a.x, b.y, c.z);
+		fallen.expandByPoint(point.addScaledVector(keyDirection, (y - point.y) / keyDirection.y));
+	}
+	return fallen.expandByScalar(0.05 * box.getSize(new Vector3()).length()); // soft edges
+}
+
 // A floor that shows nothing but shadows and a grid, under all that ever moves.
 export class Ground {
 	private shadow: Mesh;
 	private grid: Mesh;
 
 	constructor(scene: Scene, box: Box3, look: Look) {
-		const disk = new CircleGeometry(1, 64);
-		this.shadow = new Mesh(disk, new ShadowMaterial({ opacity: 0.28 }));
+		this.shadow = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ opacity: 0.28 }));
 		this.shadow.receiveShadow = true;
 		this.grid = new Mesh(
-			disk,
+			new CircleGeometry(1, 64),
 			new ShaderMaterial({
 				uniforms: { colour: { value: look.grid }, cell: { value: 1 }, reach: { value: 1 } },
 				vertexShader: gridVertex,
@@ -142,11 +154,12 @@ export class Ground {
 		const { uniforms } = this.grid.material as ShaderMaterial;
 		uniforms.reach.value = 4 * size;
 		uniforms.cell.value = cellOf(size);
-		for (const mesh of [this.shadow, this.grid]) {
-			mesh.position.set(centre.x, box.min.y - 0.002 * size, centre.z);
-			mesh.scale.setScalar(4 * size);
-		}
-		this.grid.position.y += 0.0005 * size;
+		this.grid.position.set(centre.x, box.min.y - 0.0015 * size, centre.z);
+		this.grid.scale.setScalar(4 * size);
+		const fallen = shadowOf(box, box.min.y - 0.002 * size);
+		const extent = fallen.getSize(new Vector3());
+		fallen.getCenter(this.shadow.position).setY(box.min.y - 0.002 * size);
+		this.shadow.scale.set(extent.x, extent.z, 1);
 	}
 
 	show(look: Look) {

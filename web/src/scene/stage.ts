@@ -20,7 +20,7 @@ export class Stage {
 	readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
 	readonly controls: OrbitControls;
 	views: RunView[] = [];
-	onDraw: () => void = () => {};
+	drawnCount = 0; // pictures
 	private isDue = false;
 	private quality: Quality;
 	private size = { width: 1, height: 1, ratio: 1 };
@@ -130,7 +130,7 @@ export class Stage {
 			this.renderer.setScissor(part.left, bottom, part.width, part.height);
 			this.renderer.render(this.views[i].scene, this.camera);
 		});
-		this.onDraw();
+		++this.drawnCount;
 	}
 
 	// Draw as well as can be, even while things move.
