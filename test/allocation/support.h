@@ -1,0 +1,27 @@
+/// @file support.h
+/// Runs of small scenes in which one allocation fails: each must end in a clean error.
+#ifndef JN_TEST_ALLOCATION_SUPPORT_H
+#define JN_TEST_ALLOCATION_SUPPORT_H
+
+/// A scene of this folder, and what is set on it.
+typedef struct Case {
+	const char* scene; ///< NULL: there is no further case
+	const char* sets[4];
+} Case;
+
+/// Between them they reach all passes, integrators with memory, solvers and recorders.
+extern const Case allocation_cases[];
+
+typedef enum Sweep {
+	SWEEP_NEW_SITES, ///< the first allocation of each site that no earlier call has met
+	SWEEP_ALL,       ///< every allocation
+} Sweep;
+
+/// Run a case once without failures, then once for each allocation that the sweep lets fail. Returns the number of these.
+long allocation_sweep(const Case* tried, Sweep sweep);
+
+/// Sites met so far by all sweeps. With the variable JN_ALLOCATION_SITES, their addresses are written into the file that it
+/// names, for tools/allocation_sites.
+int allocation_site_count(void);
+
+#endif
