@@ -177,20 +177,6 @@ def check_vtu(run, bodies, output, frames, fps, surface=False):
 	if "obstacles" in run:
 		mesh = meshio.read(f"{output}/obstacles.vtu")
 		assert np.array_equal(mesh.points, np.concatenate([obstacle["points"] for obstacle in run["obstacles"].values()]))
-	try:
-		import vtk
-		from vtk.util.numpy_support import vtk_to_numpy
-	except ImportError:
-		return
-	for time, name in sets:
-		reader = vtk.vtkXMLUnstructuredGridReader()
-		reader.SetFileName(f"{output}/{name}")
-		reader.Update()
-		grid, mesh = reader.GetOutput(), meshio.read(f"{output}/{name}")
-		assert reader.GetErrorCode() == 0
-		assert np.array_equal(vtk_to_numpy(grid.GetPoints().GetData()), mesh.points)
-		assert grid.GetNumberOfCells() == sum(len(block.data) for block in mesh.cells)
-		assert np.array_equal(vtk_to_numpy(grid.GetPointData().GetArray("velocity")), mesh.point_data["velocity"])
 
 
 def check_pc2(run, bodies, output, frames, fps):

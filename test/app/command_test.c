@@ -360,7 +360,8 @@ static void failing_run_keeps_its_last_good_state(void** state) {
 						  "bodies[0].drive=[{where: {face: z+}, z: {type: keyframes, points: [[50 ms, 0], [60 ms, "
 						  "-2]]}}]");
 	expect_part(outcome.err, "jounce: error: step 6 at t = 0.05 s failed: ");
-	expect_part(outcome.err, "Try a smaller step.dt");
+	expect_part(outcome.err, "moves a node by 2 m within the step, and the shortest edge there is 0.5 m");
+	expect_part(outcome.err, "Try a slower motion");
 	expect_part(outcome.out, "5 steps to t = 0.05 s");
 	expect_part(outcome.out, "wrote out/block: ");
 	outcome_free(&outcome);
@@ -465,6 +466,18 @@ static void speeds_that_are_none_are_refused(void** state) {
 	REFUSED(2, "--realtime is an option of 'jounce run'", "check", "block.yaml", "--realtime");
 }
 
+// 3 of 10 steps; the run can be resumed, as after Ctrl-C.
+static void a_run_stops_after_the_steps_that_were_asked_for(void** state) {
+	(void)state;
+	Outcome outcome = RUN(0, "run", "block.yaml", "-o", "some", "--steps", "3");
+	expect_part(outcome.out, "stopped as asked");
+	outcome_free(&outcome);
+	expect_json("some/summary.json", "d['steps']==3 and d['outcome']=='interrupted'");
+	REFUSED(2, "--steps: '0' is no whole number from 1", "run", "block.yaml", "--steps", "0");
+	REFUSED(2, "--steps: '2x' is no whole number from 1", "run", "block.yaml", "--steps", "2x");
+	REFUSED(2, "--steps is an option of 'jounce run'", "check", "block.yaml", "--steps", "2");
+}
+
 static void a_run_without_a_pace_says_nothing_of_deadlines(void** state) {
 	(void)state;
 	Outcome outcome = RUN(0, "run", "block.yaml", "-o", "free");
@@ -495,6 +508,7 @@ int main(void) {
 		TEST(missing_scene_is_a_file_failure),
 		TEST(unknown_options_are_refused_by_name),
 		TEST(thread_counts_are_whole_numbers_from_1),
+		TEST(a_run_stops_after_the_steps_that_were_asked_for),
 		TEST(bad_override_creates_nothing),
 		TEST(selection_without_nodes_creates_nothing),
 		TEST(run_writes_all_its_files),

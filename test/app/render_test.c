@@ -267,6 +267,7 @@ static void wrong_options_are_refused_in_words(void** state) {
 	REFUSED(2, "no size such as 1920x1080", "--size", "big");
 	REFUSED(2, "neither azimuth,elevation", "--camera", "1,2,3,4");
 	REFUSED(2, "neither azimuth,elevation", "--camera", "1,2,3/1,2,3");
+	REFUSED(2, "neither azimuth,elevation", "--camera", "0,2,3/-0,2,3");
 	REFUSED(2, "with frames from 0 to 10", "--frames", "0:11");
 	REFUSED(2, "has the wrong unit", "--times", "1kg");
 	REFUSED(2, "does not end with .png", "-o", "p.bmp");

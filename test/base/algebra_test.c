@@ -87,11 +87,36 @@ static void the_largest_entry_is_found_wherever_it_stands(void** state) {
 	}
 }
 
+static void an_advance_tells_of_every_end_that_is_not_finite(void** state) {
+	(void)state;
+	static double v[MOST], x[MOST], ones[MOST], force[MOST];
+	const double bad[] = {NAN, INFINITY, -INFINITY};
+	for (int k = 0; k < MOST; ++k) ones[k] = 1;
+	EACH_WIDTH(algebra) for (size_t n = 1; n < 40; ++n) {
+		const JnAdvance by = {
+			.kick = 1, .drift = 2, .inverse_mass = ones, .force = force, .x = x, .v = v, .x_out = out, .v_out = d};
+		JnAdvance kick = by;
+		kick.drift = 0;
+		assert_true(algebra->advance(0, n, &by) && algebra->advance(0, n, &kick));
+		for (int i = 0; i < 3; ++i) {
+			force[n - 1] = bad[i];
+			assert_false(algebra->advance(0, n, &by) || algebra->advance(0, n, &kick));
+			force[n - 1] = 0;
+		}
+		v[n - 1] = 1e308; // x + 2 v is beyond all numbers, v is not
+		assert_false(algebra->advance(0, n, &by));
+		assert_true(algebra->advance(0, n, &kick));
+		v[n - 1] = 0;
+	}
+	fill(NULL); // d
+}
+
 int main(void) {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(sums_are_those_of_plain_loops),
 		cmocka_unit_test(every_width_gives_the_same_dot_product),
 		cmocka_unit_test(the_largest_entry_is_found_wherever_it_stands),
+		cmocka_unit_test(an_advance_tells_of_every_end_that_is_not_finite),
 	};
 	return cmocka_run_group_tests(tests, fill, NULL);
 }

@@ -314,6 +314,17 @@ static void values_outside_bounds_are_refused_with_the_remedy(void** state) {
 	expect_refusal(fixture, "bodies: [{name: a, material: {young: -1 Pa}}]\n", "-1 Pa is outside (0, infinity) Pa");
 }
 
+// Their squares and products overflow, or vanish.
+static void numbers_too_large_or_too_small_for_arithmetic_are_refused(void** state) {
+	Fixture* fixture = *state;
+	expect_refusal(fixture, "bodies: [{name: a, material: {young: 2e30 Pa}}]\n",
+				   "bodies[0].material.young: 2e30 Pa is beyond 1e+30 Pa, the largest that a number here may be");
+	expect_refusal(fixture, "bodies: [{name: a, material: {young: 1e-31}}]\n",
+				   "bodies[0].material.young: 1e-31 is below 1e-30 Pa, the smallest that a number here may be");
+	expect_read(fixture, "bodies: [{name: a, material: {young: 1e30}}]\n");
+	expect_read(fixture, "bodies: [{name: a, material: {young: 1e-30}}]\n");
+}
+
 static void bounds_that_are_inside_are_taken(void** state) {
 	Fixture* fixture = *state;
 	expect_read(fixture, "bodies: [{name: a, material: {poisson: 0}}]\nstep: {dt: 1}\nsteps: 1\ncells: [99, 1, 1]\n");
@@ -569,6 +580,7 @@ int main(void) {
 		TEST(switches_take_six_words),
 		TEST(variant_without_tag_takes_the_default_row),
 		TEST(values_outside_bounds_are_refused_with_the_remedy),
+		TEST(numbers_too_large_or_too_small_for_arithmetic_are_refused),
 		TEST(bounds_that_are_inside_are_taken),
 		TEST(unknown_keys_are_refused_with_a_suggestion),
 		TEST(missing_required_keys_are_named_with_their_meaning),

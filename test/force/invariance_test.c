@@ -98,7 +98,7 @@ static void tet4_forces_do_not_depend_on_the_order_of_nodes(void** unused) {
 }
 
 /// Numbers of a sample one behind the other: energies, forces, both tangents.
-static int collect(const Sample* s, double* out) {
+static int collect(Sample* s, double* out) {
 	static SampleMatrix K[SAMPLE_ELEMENTS];
 	double f[SAMPLE_ELEMENTS][SAMPLE_MOST_REALS];
 	int count = SAMPLE_ELEMENTS;
@@ -117,25 +117,10 @@ static int collect(const Sample* s, double* out) {
 }
 
 static void check_widths(Sample* s, State state) {
-	static double reference[10000], other[10000];
-	if (s->group.kernel->width != 4) return;
-	const int count = collect(s, reference);
-	for (int width = 8; width >= 2; width -= 6) {
-		if (jn_kernel_find(s->mesh.shape, s->group.kernel->law, width) == NULL) continue;
-		Sample wide = *s;
-		wide.arena = (JnArena){0};
-		sample_group(&wide, s->group.kernel->law, width);
-		assert_int_equal(collect(&wide, other), count);
-		for (int k = 0; k < count; k++) {
-			// 2 lanes round a b + c twice; numbers of one kind have the scale of E times a power of 0.1 m
-			const double scale = k < SAMPLE_ELEMENTS ? 1e2 : k < SAMPLE_ELEMENTS * (1 + s->reals) ? 1e3 : 1e4;
-			expect_near(other[k], reference[k], width == 8 ? 0 : 1e-13 * scale, "another width's number", &wide, state);
-		}
-		jn_arena_free(&wide.arena);
-	}
+	sample_check_widths(s, state, collect);
 }
 
-static void all_widths_agree_and_8_and_4_to_the_bit(void** unused) {
+static void all_widths_agree_to_the_bit(void** unused) {
 	(void)unused;
 	for_all_samples(check_widths);
 }
@@ -146,7 +131,7 @@ int main(void) {
 		cmocka_unit_test(forces_turn_with_the_body_and_ignore_its_place),
 		cmocka_unit_test(forces_grow_with_the_square_of_size),
 		cmocka_unit_test(tet4_forces_do_not_depend_on_the_order_of_nodes),
-		cmocka_unit_test(all_widths_agree_and_8_and_4_to_the_bit),
+		cmocka_unit_test(all_widths_agree_to_the_bit),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,7 +52,7 @@ static void check_patch(const JnKernel* kernel) {
 	JnGroup group;
 	distorted_box(kernel->shape, &arena, &mesh);
 	const JnMaterialDef material = {.density = 1000, .young = 1e5, .poisson = 0.3};
-	assert_int_equal(jn_group_create(kernel, &mesh, 0, &material, &arena, &group), JN_OK);
+	assert_int_equal(jn_group_create(kernel, &mesh, 0, &material, "body", &arena, &group), JN_OK);
 	double* x = jn_arena_take(&arena, 3 * (size_t)mesh.node_count, sizeof(double));
 	double* f = jn_arena_take(&arena, 3 * (size_t)mesh.node_count, sizeof(double));
 	double* energy = jn_arena_take(&arena, (size_t)group.batches * kernel->width, sizeof(double));
@@ -159,7 +159,7 @@ static void a_group_names_the_first_cell_that_is_inside_out(void** unused) {
 		jn_log_set_sink(keep_message, NULL);
 		const JnMaterialDef material = {.density = 1000, .young = 1e5, .poisson = 0.3};
 		const JnKernel* kernel = jn_kernel_find(shape, (const JnLaw*)jn_law_list.rows[0], 0);
-		assert_int_equal(jn_group_create(kernel, &mesh, 0, &material, &arena, &group), JN_BAD_INPUT);
+		assert_int_equal(jn_group_create(kernel, &mesh, 0, &material, "body", &arena, &group), JN_BAD_INPUT);
 		jn_log_set_sink(NULL, NULL);
 		assert_non_null(strstr(last_message, "cell 17 "));
 		jn_arena_free(&arena);

@@ -137,10 +137,48 @@ static void parallelepipeds_are_told_from_other_hexahedra(void** unused) {
 	jn_arena_free(&s.arena);
 }
 
+/// Products in double and in single precision and diagonals, element by element, one behind the other.
+static int collect(Sample* s, double* out) {
+	const JnGroup* g = &s->group;
+	const JnKernel* kernel = g->kernel;
+	const int width = kernel->width, lanes = 2 * width, pairs = (g->batches + 1) / 2;
+	static double p[SAMPLE_ELEMENTS * SAMPLE_MOST_REALS], wide[2 * SAMPLE_ELEMENTS * SAMPLE_MOST_REALS * 8];
+	static float single[SAMPLE_ELEMENTS * 40], rows[2 * SAMPLE_ELEMENTS * SAMPLE_MOST_REALS * 16];
+	int count = 0;
+	random_direction(s, 5, p, single);
+	for (int definite = 0; definite < 2; definite++) {
+		const size_t floats = (size_t)pairs * kernel->points * kernel->stored_reals[definite] * lanes;
+		float* stored = jn_arena_take(&s->arena, floats, sizeof *stored);
+		kernel->product(g, 0, g->batches, s->x, definite, p, wide);
+		kernel->store(g, 0, g->batches, s->x, definite, stored);
+		kernel->product_single(g, 0, g->batches, definite, stored, single, rows);
+		for (int e = 0; e < SAMPLE_ELEMENTS; e++)
+			for (int row = 0; row < s->reals; row++) {
+				out[count++] = wide[((e / width) * s->reals + row) * width + e % width];
+				out[count++] = (double)rows[((e / lanes) * s->reals + row) * lanes + e % lanes];
+			}
+		kernel->diagonal(g, 0, g->batches, s->x, definite, wide);
+		for (int e = 0; e < SAMPLE_ELEMENTS; e++)
+			for (int k = 0; k < 6 * kernel->nodes; k++)
+				out[count++] = wide[((e / width) * 6 * kernel->nodes + k) * width + e % width];
+	}
+	return count;
+}
+
+static void check_widths(Sample* s, State state) {
+	sample_check_widths(s, state, collect);
+}
+
+static void all_widths_agree_to_the_bit(void** unused) {
+	(void)unused;
+	for_all_samples(check_widths);
+}
+
 int main(void) {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(products_are_those_of_the_tangent),
 		cmocka_unit_test(diagonals_are_those_of_the_tangent),
+		cmocka_unit_test(all_widths_agree_to_the_bit),
 		cmocka_unit_test(cells_at_random_are_sorted_by_their_nodes),
 		cmocka_unit_test(parallelepipeds_are_told_from_other_hexahedra),
 		cmocka_unit_test(products_in_single_precision_agree_to_six_digits),

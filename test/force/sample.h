@@ -90,7 +90,7 @@ static inline void sample_group(Sample* s, const JnLaw* law, int width) {
 	const JnKernel* kernel = jn_kernel_find(s->mesh.shape, law, width);
 	assert_non_null(kernel);
 	const JnMaterialDef material = {.density = 1000, .young = 1e5, .poisson = 0.4};
-	assert_int_equal(jn_group_create(kernel, &s->mesh, 0, &material, &s->arena, &s->group), JN_OK);
+	assert_int_equal(jn_group_create(kernel, &s->mesh, 0, &material, "body", &s->arena, &s->group), JN_OK);
 	if (kernel->freeze != NULL) kernel->freeze(&s->group, 0, s->group.batches, s->x);
 }
 
@@ -190,6 +190,22 @@ static inline void for_all_samples(SampleCheck* check) {
 				}
 			}
 		}
+	}
+}
+
+/// What `collect` gathers of the sample must be the same, bit for bit, with every width of vectors that the processor has.
+static inline void sample_check_widths(Sample* s, State state, int (*collect)(Sample* s, double* out)) {
+	static double reference[20000], other[20000];
+	if (s->group.kernel->width != 4) return;
+	const int count = collect(s, reference);
+	for (int width = 8; width >= 2; width -= 6) {
+		if (jn_kernel_find(s->mesh.shape, s->group.kernel->law, width) == NULL) continue;
+		Sample wide = *s;
+		wide.arena = (JnArena){0};
+		sample_group(&wide, s->group.kernel->law, width);
+		assert_int_equal(collect(&wide, other), count);
+		for (int k = 0; k < count; k++) expect_near(other[k], reference[k], 0, "another width's number", &wide, state);
+		jn_arena_free(&wide.arena);
 	}
 }
 

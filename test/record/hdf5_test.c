@@ -2,10 +2,16 @@
 #include "sample_run.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <hdf5.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include "record/h5_driver.h"
 
 static hid_t open_file(const Sample* sample) {
 	const hid_t file = H5Fopen(sample_path(sample, "run.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -430,6 +436,71 @@ static void run_after_a_full_disk_is_recorded(void** state) {
 	H5Fclose(file);
 }
 
+// ---- the journal ----
+
+enum { PAGE_BYTES = 4096 };
+
+static void write_bytes(const char* path, const void* bytes, size_t size) {
+	FILE* file = fopen(path, "wb");
+	assert_non_null(file);
+	assert_int_equal(fwrite(bytes, 1, size, file), size);
+	assert_int_equal(fclose(file), 0);
+}
+
+// Two pages of zeros, and a journal with another second page. `spoil`: this byte of it is another one.
+static void leave_a_journal(const Sample* sample, long spoil) {
+	static unsigned char pages[2 * PAGE_BYTES], journal[24 + 8 + PAGE_BYTES];
+	uint64_t head[4] = {0, 1, 0, 1}; // magic, count, sum; the number of the page
+	memcpy(head, "jounceJ1", 8);
+	memset(pages, 0, sizeof pages);
+	memset(journal + sizeof head, 'x', PAGE_BYTES);
+	memcpy(journal, head, sizeof head);
+	head[2] = crc32_z(0, journal + 24, sizeof journal - 24);
+	memcpy(journal, head, sizeof head);
+	if (spoil >= 0) journal[spoil] ^= 1;
+	write_bytes(sample_path(sample, "run.h5"), pages, sizeof pages);
+	write_bytes(sample_path(sample, "run.h5.journal"), journal, sizeof journal);
+}
+
+static void expect_second_page(const Sample* sample, char content) {
+	char pages[2 * PAGE_BYTES];
+	FILE* file = fopen(sample_path(sample, "run.h5"), "rb");
+	assert_non_null(file);
+	assert_int_equal(fread(pages, 1, sizeof pages, file), sizeof pages);
+	fclose(file);
+	for (int i = 0; i < 2 * PAGE_BYTES; ++i) assert_int_equal(pages[i], i < PAGE_BYTES ? 0 : content);
+}
+
+static void a_whole_journal_is_put_into_its_file(void** state) {
+	Sample* sample = *state;
+	leave_a_journal(sample, -1);
+	assert_int_equal(jn_h5_recover(sample_path(sample, "run.h5")), JN_OK);
+	expect_second_page(sample, 'x');
+	assert_int_equal(access(sample_path(sample, "run.h5.journal"), F_OK), -1);
+}
+
+static void a_journal_that_is_not_whole_is_of_no_use(void** state) {
+	Sample* sample = *state;
+	static const long bytes[] = {0, 8, 16, 24, 32, 24 + 8 + PAGE_BYTES - 1};
+	for (size_t i = 0; i < sizeof bytes / sizeof *bytes; ++i) {
+		leave_a_journal(sample, bytes[i]);
+		assert_int_equal(jn_h5_recover(sample_path(sample, "run.h5")), JN_OK);
+		expect_second_page(sample, 0);
+		assert_int_equal(access(sample_path(sample, "run.h5.journal"), F_OK), -1);
+	}
+}
+
+static void the_journal_of_a_run_in_progress_is_left_alone(void** state) {
+	Sample* sample = *state;
+	leave_a_journal(sample, -1);
+	const int journal = open(sample_path(sample, "run.h5.journal"), O_RDWR);
+	assert_int_equal(flock(journal, LOCK_EX), 0);
+	assert_int_equal(jn_h5_recover(sample_path(sample, "run.h5")), JN_OK);
+	expect_second_page(sample, 0);
+	assert_int_equal(access(sample_path(sample, "run.h5.journal"), F_OK), 0);
+	close(journal);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, sample_setup, sample_teardown)
 
 int main(void) {
@@ -452,6 +523,9 @@ int main(void) {
 		TEST(fields_read_back_bit_for_bit_with_their_units),
 		TEST(obstacles_read_back_one_by_one_and_together),
 		TEST(a_run_without_obstacles_has_no_trace_of_them),
+		TEST(a_whole_journal_is_put_into_its_file),
+		TEST(a_journal_that_is_not_whole_is_of_no_use),
+		TEST(the_journal_of_a_run_in_progress_is_left_alone),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);
 }

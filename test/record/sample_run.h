@@ -209,7 +209,7 @@ static inline JnRecordEnd sample_end(void) {
 }
 
 static inline JnStatus sample_open(Sample* sample) {
-	return jn_recorders_open(&sample->recorders, &sample->arena, &sample->info);
+	return jn_recorders_open(&sample->recorders, &sample->arena, &sample->info, NULL);
 }
 
 static inline JnStatus sample_close(Sample* sample) {

@@ -198,13 +198,11 @@ static void missing_gnuplot_is_one_warning(void** state) {
 	assert_int_equal(access(sample_path(sample, "plots/energy.gnuplot"), F_OK), 0);
 }
 
-// check_recording.py stands beside this file; it exits with 77 when a module is missing.
+// check_recording.py exits with 77 when a module is missing.
 static void check_by_python(Sample* sample, const char* cell_types) {
 	sample_record(sample);
-	char script[512], command[1200];
-	snprintf(script, sizeof script, "%s", __FILE__);
-	char* slash = strrchr(script, '/');
-	snprintf(slash != NULL ? slash + 1 : script, 64, "check_recording.py");
+	const char* script = JN_SOURCE_DIR "/test/record/check_recording.py";
+	char command[1200];
 	snprintf(command, sizeof command, "/usr/bin/python3 '%s' '%s' %s", script, sample->directory, cell_types);
 	const int outcome = access("/usr/bin/python3", X_OK) == 0 ? system(command) : 77 << 8;
 	if (WIFEXITED(outcome) && WEXITSTATUS(outcome) == 77) {
