@@ -13,7 +13,14 @@ target_compile_options(jounce_flags INTERFACE
 	-Wno-psabi # wide vectors as arguments: every caller is in the same build
 	$<$<BOOL:${JN_WERROR}>:-Werror>)
 if(JN_SANITIZE)
-	target_compile_options(jounce_flags INTERFACE
-		-fsanitize=${JN_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+	string(REPLACE "," "$<COMMA>" sanitizers ${JN_SANITIZE})
+	target_compile_options(jounce_flags INTERFACE # JN_PLAIN: a target without sanitizers
+		$<$<NOT:$<BOOL:$<TARGET_PROPERTY:JN_PLAIN>>>:-fsanitize=${sanitizers}>
+		-fno-sanitize-recover=all -fno-omit-frame-pointer)
 	target_link_options(jounce_flags INTERFACE -fsanitize=${JN_SANITIZE})
 endif()
+
+# For tests: test/support/allocator.c stands between the code of jounce and malloc. The linker hands it what our objects
+# alone ask for, not what shared libraries do; allocator_arena.c does the same for the pieces that arenas hand out.
+set(JN_ALLOCATOR_WRAP "-Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=open_memstream")
+set(JN_ARENA_WRAP "-Wl,--wrap=jn_arena_take,--wrap=jn_arena_text,--wrap=jn_grow")

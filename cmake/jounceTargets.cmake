@@ -19,6 +19,10 @@ target_include_directories(jounce
 
 target_link_libraries(jounce PRIVATE $<BUILD_INTERFACE:jounce_flags> ${JN_DEPENDENCIES} OpenMP::OpenMP_C m
 	${CMAKE_DL_LIBS})
+if(CMAKE_BUILD_TYPE STREQUAL "Coverage")
+	target_sources(jounce PRIVATE cmake/coverage_exit.c)
+	target_link_options(jounce INTERFACE -Wl,--wrap=_exit)
+endif()
 if(JN_GMSH_LIBRARY)
 	target_include_directories(jounce SYSTEM PRIVATE ${JN_GMSH_INCLUDE})
 	target_compile_definitions(jounce PRIVATE JN_GMSH_LIBRARY="${JN_GMSH_LIBRARY}")
@@ -31,8 +35,12 @@ function(jounce_add_kernels width)
 	add_library(jounce_kernels_${width} OBJECT ${JN_KERNEL_SOURCES})
 	target_include_directories(jounce_kernels_${width} PRIVATE include src)
 	target_compile_definitions(jounce_kernels_${width} PRIVATE JN_WIDE=${width})
-	target_compile_options(jounce_kernels_${width} PRIVATE ${ARGN} $<$<CONFIG:Release,RelWithDebInfo>:-O3>)
+	# -Og does not inline through the pointers that these loops are given as constants
+	target_compile_options(jounce_kernels_${width} PRIVATE ${ARGN} $<IF:$<CONFIG:Release,RelWithDebInfo>,-O3,-O1>)
 	target_link_libraries(jounce_kernels_${width} PRIVATE jounce_flags OpenMP::OpenMP_C)
+	if(JN_FUZZ) # they read no files; instrumented, these three builds take longer than all the rest
+		set_target_properties(jounce_kernels_${width} PROPERTIES JN_PLAIN ON)
+	endif()
 	target_sources(jounce PRIVATE $<TARGET_OBJECTS:jounce_kernels_${width}>)
 endfunction()
 

@@ -31,6 +31,10 @@ foreach(source IN LISTS test_sources)
 	if(TARGET jounce_command)
 		add_dependencies(${name} jounce_command)
 	endif()
+	if(folder STREQUAL "allocation")
+		target_sources(${name} PRIVATE test/support/allocator.c test/support/allocator_arena.c)
+		target_link_options(${name} PRIVATE ${JN_ALLOCATOR_WRAP} ${JN_ARENA_WRAP})
+	endif()
 
 	add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/test)
 	set_tests_properties(${name} PROPERTIES TIMEOUT 300 ENVIRONMENT "OMP_WAIT_POLICY=passive")
@@ -38,6 +42,11 @@ foreach(source IN LISTS test_sources)
 		set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS long)
 	endif()
 endforeach()
+
+# The command's readers of recordings, and recordings to damage.
+if(TARGET app_recording)
+	target_link_libraries(app_recording PRIVATE jounce_fuzz_support)
+endif()
 
 # Ipopt checks the contact solvers; its test is skipped where it is not installed.
 find_path(JN_IPOPT_INCLUDE coin/IpStdCInterface.h)
@@ -78,6 +87,13 @@ if(TARGET jounce_command AND NOT JN_SANITIZE)
 	set_tests_properties(examples PROPERTIES TIMEOUT 300)
 endif()
 
+# XDMF and VTU in the readers that users have: meshio's and VTK's.
+if(JN_PYTHON AND TARGET jounce_command)
+	add_test(NAME app_readers COMMAND ${JN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test/app/check_readers.py
+		$<TARGET_FILE:jounce_command> ${CMAKE_CURRENT_BINARY_DIR}/readers_test)
+	set_tests_properties(app_readers PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+endif()
+
 # Khronos' validator of glTF is a package of npm.
 find_program(JN_NODE NAMES node nodejs)
 find_program(JN_NPM NAMES npm)
@@ -88,4 +104,28 @@ if(JN_NODE AND JN_NPM AND TARGET jounce_command)
 	set_tests_properties(app_gltf PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
 else()
 	message(STATUS "without node and npm: glTF files are not validated (Debian: apt-get install nodejs npm)")
+endif()
+
+# Scenes drawn at random from the key tables, each run in a process of its own; and scenes that were defects once.
+if(TARGET jounce_command)
+	file(GLOB random_sources CONFIGURE_DEPENDS test/random/*.c)
+	add_executable(random_scene ${random_sources})
+	set_target_properties(random_scene PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/test)
+	target_link_libraries(random_scene PRIVATE jounce_test)
+	if(JN_SANITIZE) # shadow memory takes terabytes of addresses
+		set(random_limits --memory 0 --cpu 60)
+	endif()
+	set(run_random_scenes ${JN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test/random/run_random_scenes
+		--build ${CMAKE_CURRENT_BINARY_DIR} ${random_limits})
+	file(GLOB known_scenes CONFIGURE_DEPENDS test/random/scenes/*.yaml)
+	add_test(NAME random_known COMMAND ${run_random_scenes} ${known_scenes})
+	add_test(NAME random_scenes COMMAND ${run_random_scenes} --count 60 --out ${CMAKE_CURRENT_BINARY_DIR}/random)
+	add_test(NAME random_scenes_long COMMAND ${run_random_scenes} --first 1000 --count 1000
+		--out ${CMAKE_CURRENT_BINARY_DIR}/random_long)
+	add_test(NAME soak_long COMMAND ${JN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/soak
+		${CMAKE_CURRENT_SOURCE_DIR}/scenes/ball.yaml --jounce $<TARGET_FILE:jounce_command> --set duration=100000
+		--set record.plots=no --seconds 20 --settle 8)
+	set_tests_properties(soak_long PROPERTIES TIMEOUT 3600 LABELS long)
+	set_tests_properties(random_known random_scenes PROPERTIES TIMEOUT 1200 SKIP_RETURN_CODE 77)
+	set_tests_properties(random_scenes_long PROPERTIES TIMEOUT 3600 SKIP_RETURN_CODE 77 LABELS long)
 endif()
