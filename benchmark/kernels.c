@@ -69,7 +69,7 @@ static JnStatus make_problem(const JnKernel* kernel, Problem* problem) {
 						  .cells = {is_hexahedron ? 8 : 4, is_hexahedron ? 8 : 4, is_hexahedron ? 8 : 5},
 						  .element = (int)kernel->shape};
 	JN_TRY(jn_generate_box(&box, &problem->arena, &mesh));
-	JN_TRY(jn_group_create(kernel, &mesh, 0, &material, &problem->arena, &problem->group));
+	JN_TRY(jn_group_create(kernel, &mesh, 0, &material, "body", &problem->arena, &problem->group));
 	JN_NEW(&problem->arena, problem->x, 3 * mesh.node_count);
 	JN_NEW(&problem->arena, problem->out, KERNEL_RUN_REALS);
 	deform(mesh.node_count, mesh.nodes, 1.0 / box.cells[2], problem->x);
