@@ -51,7 +51,8 @@ void jn_impulses_archive(JnImpulses* set, JnArchive* archive, int nodes) {
 	const int entries = jn_archive_count(archive, "entries", set->entry_count, sizeof *set->entries);
 	const JnStatus status = archive->is_reading ? jn_impulses_reserve(set, count, entries) : JN_OK;
 	if (archive->status == JN_OK) archive->status = status;
-	if (archive->is_reading && status == JN_OK && count > 0) memset(set->blocks, 0, (size_t)count * sizeof *set->blocks);
+	if (archive->is_reading && status == JN_OK && count > 0)
+		memset(set->blocks, 0, (size_t)count * sizeof *set->blocks);
 	for (int i = 0; i < count && archive->status == JN_OK; ++i) archive_block(&set->blocks[i], archive, entries);
 	for (int k = 0; k < entries && archive->status == JN_OK; ++k) {
 		jn_archive_indices(archive, "node", &set->entries[k].node, 1, 0, nodes);
