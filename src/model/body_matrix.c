@@ -44,7 +44,7 @@ static JnStatus create_body(JnModel* model, int index, JnBodyMatrices* matrices)
 	const int nodes = body->mesh.node_count;
 	matrix->held = model->held + 3 * (size_t)body->first_node;
 	matrix->blocks = matrices->blocks + 9 * (size_t)model->pattern.column_start[body->first_node];
-	JN_TRY(cut_pattern(&model->pattern, body->first_node, nodes, &model->arena, &matrix->pattern));
+	JN_TRY(cut_pattern(&model->pattern, body->first_node, nodes, &model->system_arena, &matrix->pattern));
 	if (!has_free_entry(matrix->held, 3 * nodes)) return JN_OK;
 	return jn_solver_direct.create(&options, &matrix->pattern, matrix->held, model->threads, &matrix->solver);
 }
@@ -61,9 +61,9 @@ JnStatus jn_body_matrices_create(JnModel* model, const bool* wanted, JnBodyMatri
 	if (model->is_matrix_free)
 		return jn_error(JN_BAD_INPUT,
 						"contact: needs assembled matrices; set solver.matrix: assembled, or take away contact");
-	JN_NEW(&model->arena, out->blocks, 9 * (size_t)model->pattern.blocks);
-	JN_NEW(&model->arena, out->weight, model->group_count + 1);
-	JN_NEW(&model->arena, out->bodies, model->body_count);
+	JN_NEW(&model->system_arena, out->blocks, 9 * (size_t)model->pattern.blocks);
+	JN_NEW(&model->system_arena, out->weight, model->group_count + 1);
+	JN_NEW(&model->system_arena, out->bodies, model->body_count);
 	for (int b = 0; b < model->body_count; ++b)
 		if (wanted[b]) JN_TRY(create_body(model, b, out));
 	return JN_OK;
