@@ -66,19 +66,22 @@ static void archive_numbers(JnRun* run, JnArchive* archive) {
 	jn_archive_long(archive, "saves_due", &run->saving.due);
 }
 
-static void write_run(JnRun* run, JnArchive* archive) {
+// The state comes before what touches files: one that is refused leaves them as they are.
+static JnStatus write_run(JnRun* run, JnStatus (*save_state)(JnSim*, JnArchive*), JnArchive* archive) {
 	write_origin(run->scene, archive);
 	archive_numbers(run, archive);
+	JN_TRY(save_state(run->sim, archive));
 	jn_recorders_archive(&run->recorders, archive);
+	return archive->status;
 }
 
 JnStatus jn_run_restore(JnRun* run, JnArchive* archive) {
 	archive_numbers(run, archive);
 	JN_TRY(archive->status);
-	JN_TRY(jn_recorders_open(&run->recorders, &run->arena, &run->info, archive));
-	run->recorders_are_open = true;
 	JN_TRY(jn_sim_restore(run->sim, archive));
 	if (run->changes_step) jn_sim_restart_step(run->sim);
+	JN_TRY(jn_recorders_open(&run->recorders, &run->arena, &run->info, archive));
+	run->recorders_are_open = true;
 	return jn_archive_end(archive);
 }
 
@@ -130,8 +133,7 @@ JnStatus jn_run_checkpoints_begin(JnRun* run) {
 	jn_checkpoints_remove(run->options->directory);
 	plan_next(run);
 	run->saving.written = jn_seconds();
-	write_run(run, &run->saving.kept);
-	JN_TRY(jn_sim_snapshot(run->sim, &run->saving.kept));
+	JN_TRY(write_run(run, jn_sim_snapshot, &run->saving.kept));
 	return run->scene->def.checkpoint.every > 0 ? write_kept(run) : JN_OK;
 }
 
@@ -149,9 +151,10 @@ static JnStatus save(JnRun* run) {
 	saving->kept.size = 0;
 	saving->is_written = false;
 	plan_next(run);
-	write_run(run, &saving->kept);
+	run->has_state = false; // until it is there again
 	jn_state_destroy(jn_sim_system(run->sim)->space, &run->between);
-	JN_TRY(jn_sim_save(run->sim, &saving->kept));
+	JN_TRY(write_run(run, jn_sim_save, &saving->kept));
+	run->has_state = true;
 	saving->step = jn_sim_steps(run->sim);
 	JN_TRY(jn_state_create(jn_sim_system(run->sim)->space, &run->between));
 	run->end.seconds_save += jn_seconds() - began;
@@ -169,8 +172,7 @@ JnStatus jn_run_save_at_end(JnRun* run) {
 	JnArchive present = {0};
 	JnStatus status = write_kept(run);
 	if (status != JN_OK || jn_sim_steps(run->sim) == run->saving.step) return status;
-	write_run(run, &present);
-	status = jn_sim_snapshot(run->sim, &present);
+	status = write_run(run, jn_sim_snapshot, &present);
 	if (status == JN_OK) status = write_file(run, JN_CHECKPOINT_END, jn_sim_steps(run->sim), &present);
 	jn_archive_free(&present);
 	return status;

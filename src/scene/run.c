@@ -130,6 +130,7 @@ static JnStatus prepare(JnRun* run, JnArchive* resumed) {
 	JN_TRY(resumed != NULL ? jn_run_restore(run, resumed) : open_recorders(run));
 	JN_TRY(jn_state_create(jn_sim_system(run->sim)->space, &run->between));
 	run->end.setup_seconds += jn_seconds() - began;
+	run->has_state = true;
 	if (resumed == NULL) return begin(run);
 	jn_run_checkpoints_go_on(run);
 	run->resumed_at = jn_sim_steps(run->sim);
@@ -140,9 +141,9 @@ static JnStatus prepare(JnRun* run, JnArchive* resumed) {
 static JnStatus finish(JnRun* run, JnStatus status, bool was_stopped) {
 	if (!run->recorders_are_open) return status;
 	JnStatus written = JN_OK;
-	if (status != JN_IO_FAILED && !run->frame_is_written)
+	if (run->has_state && status != JN_IO_FAILED && !run->frame_is_written)
 		written = write_record(run, jn_sim_state(run->sim), NULL, true);
-	if (run->is_prepared && status != JN_IO_FAILED && written == JN_OK && (status != JN_OK || was_stopped))
+	if (run->has_state && status != JN_IO_FAILED && written == JN_OK && (status != JN_OK || was_stopped))
 		written = jn_run_save_at_end(run);
 	if (run->pace.speed > 0) {
 		run->pace_report = jn_pace_report(&run->pace, jn_sim_state(run->sim)->t);
@@ -201,7 +202,6 @@ JnStatus jn_run_execute(JnRun* run, JnArchive* resumed, JnRunResult* result) {
 	*result = (JnRunResult){0};
 	run->outer = jn_log_swap((JnLog){keep_error, run});
 	JnStatus status = prepare(run, resumed);
-	run->is_prepared = status == JN_OK;
 	if (status == JN_OK) status = step_to_end(run, result);
 	status = finish(run, status, result->was_stopped);
 	jn_log_swap(run->outer);

@@ -38,7 +38,8 @@ typedef struct JnRun {
 	double next_frame; ///< time of the next frame that is due [s]
 	long frames_due;   ///< number of that frame
 	JnState between;   ///< a frame between steps
-	bool frame_is_written, recorders_are_open, is_prepared;
+	bool frame_is_written, recorders_are_open;
+	bool has_state; ///< the simulation has one that can be written
 	JnRunSaving saving;
 	long resumed_at; ///< steps that an earlier run had done
 	bool

@@ -15,7 +15,7 @@
 #include "sim/simulation.h"
 #include "sim/stability.h"
 
-// A node at its last good position, or the number of an unknown.
+// A node at its last good position, or the number of a coordinate.
 static void name_place(const JnSim* sim, int entry, size_t size, char* place) {
 	if (sim->model == NULL) {
 		snprintf(place, size, "coordinate %d", entry);

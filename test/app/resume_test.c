@@ -180,11 +180,16 @@ static void other_nodes_are_refused(void** state) {
 	const Place* place = *state;
 	const char* const save[] = {"--set", "checkpoint.every=0.1 s", NULL};
 	expect_done(command_wait(start(place, "run", save)));
+	char* summary = file_read(path_join(place->folder, "run/summary.json"));
 	const char* const resume[] = {"resume", "run", "--set", "bodies[0].shape.cells=[2, 2, 9]", NULL};
 	Outcome outcome = command_run(place->folder, resume);
 	assert_int_equal(outcome.status, 2);
 	assert_non_null(strstr(outcome.err, "of another scene"));
 	outcome_free(&outcome);
+	char* after = file_read(path_join(place->folder, "run/summary.json"));
+	assert_string_equal(summary, after); // nothing was touched
+	free(summary);
+	free(after);
 }
 
 // A limit on the size of files stands for a full disk.
