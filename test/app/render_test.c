@@ -30,11 +30,7 @@ static char folder[256], usual_browser[256];
 
 static int set_up(void** state) {
 	(void)state;
-	if (folder_create(folder) != 0) return -1;
-	file_write(path_join(folder, "block.yaml"), scene_text);
-	Outcome outcome = command_run(folder, (const char* const[]){"run", "block.yaml", "-o", "block", "--quiet", NULL});
-	const int status = outcome.status;
-	outcome_free(&outcome);
+	const int status = folder_create_with_run(folder, scene_text);
 	const char* chosen = getenv("JOUNCE_BROWSER");
 	snprintf(usual_browser, sizeof usual_browser, "%s", chosen != NULL ? chosen : "");
 	return status;

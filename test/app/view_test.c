@@ -365,12 +365,7 @@ static void what_cannot_be_done_is_said(void** state) {
 
 static int set_up(void** state) {
 	(void)state;
-	if (folder_create(folder) != 0) return -1;
-	file_write(path_join(folder, "block.yaml"), scene_text);
-	Outcome outcome = command_run(folder, (const char* const[]){"run", "block.yaml", "-o", "block", "-q", NULL});
-	const int status = outcome.status;
-	outcome_free(&outcome);
-	return status;
+	return folder_create_with_run(folder, scene_text);
 }
 
 static int tear_down(void** state) {

@@ -210,3 +210,12 @@ void table_free(Table* table) {
 	free(table->text);
 	*table = (Table){0};
 }
+
+int folder_create_with_run(char folder[256], const char* scene_text) {
+	if (folder_create(folder) != 0) return -1;
+	file_write(path_join(folder, "block.yaml"), scene_text);
+	Outcome outcome = command_run(folder, (const char* const[]){"run", "block.yaml", "-o", "block", "--quiet", NULL});
+	const int status = outcome.status;
+	outcome_free(&outcome);
+	return status;
+}

@@ -49,6 +49,9 @@ Outcome command_wait(Process process);
 Outcome command_run(const char* folder, const char* const arguments[]);
 void outcome_free(Outcome* outcome);
 
+/// Make a folder with the scene block.yaml and its recording, block. Returns 0, or what failed.
+int folder_create_with_run(char folder[256], const char* scene_text);
+
 /// A CSV file: a header and rows. Free with table_free.
 typedef struct Table {
 	int rows, columns;
