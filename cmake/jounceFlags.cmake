@@ -21,6 +21,6 @@ if(JN_SANITIZE)
 endif()
 
 # For tests: test/support/allocator.c stands between the code of jounce and malloc. The linker hands it what our objects
-# alone ask for, not what shared libraries do; allocator_arena.c does the same for the pieces that arenas hand out.
-set(JN_ALLOCATOR_WRAP "-Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=aligned_alloc,--wrap=open_memstream")
-set(JN_ARENA_WRAP "-Wl,--wrap=jn_arena_take,--wrap=jn_arena_text,--wrap=jn_grow")
+# alone ask for, not what shared libraries do; allocator_arena.c does the same for aligned memory and the pieces that arenas hand out.
+set(JN_ALLOCATOR_WRAP "-Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=open_memstream")
+set(JN_ARENA_WRAP "-Wl,--wrap=jn_aligned_take,--wrap=jn_arena_take,--wrap=jn_arena_text,--wrap=jn_grow")

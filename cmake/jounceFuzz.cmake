@@ -12,6 +12,7 @@ add_library(jounce_parts STATIC EXCLUDE_FROM_ALL ${app_sources})
 target_include_directories(jounce_parts PUBLIC src app test)
 target_link_libraries(jounce_parts PUBLIC jounce jounce_flags ${JN_DEPENDENCIES} jounce::microhttpd jounce::jansson
 	OpenMP::OpenMP_C m)
+set_target_properties(jounce_parts PROPERTIES EXPORT_COMPILE_COMMANDS OFF) # clang-tidy: once a file, as of the command
 if(TARGET jounce_page)
 	add_dependencies(jounce_parts jounce_page)
 endif()
@@ -48,6 +49,6 @@ if(JN_TESTS)
 		set_target_properties(replay_${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/test)
 		add_test(NAME fuzz_${target} COMMAND replay_${target} ${CMAKE_CURRENT_SOURCE_DIR}/test/fuzz/corpus/${target}
 			WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/test)
-		set_tests_properties(fuzz_${target} PROPERTIES TIMEOUT 300 ENVIRONMENT "OMP_WAIT_POLICY=passive")
+		set_tests_properties(fuzz_${target} PROPERTIES TIMEOUT ${JN_TEST_SECONDS} ENVIRONMENT "OMP_WAIT_POLICY=passive")
 	endforeach()
 endif()

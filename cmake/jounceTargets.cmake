@@ -21,7 +21,7 @@ target_link_libraries(jounce PRIVATE $<BUILD_INTERFACE:jounce_flags> ${JN_DEPEND
 	${CMAKE_DL_LIBS})
 if(CMAKE_BUILD_TYPE STREQUAL "Coverage")
 	target_sources(jounce PRIVATE cmake/coverage_exit.c)
-	target_link_options(jounce INTERFACE -Wl,--wrap=_exit)
+	target_link_options(jounce INTERFACE -Wl,--wrap=_exit,--wrap=__gcov_fork,--wrap=__gcov_execv,--wrap=__gcov_execvp)
 endif()
 if(JN_GMSH_LIBRARY)
 	target_include_directories(jounce SYSTEM PRIVATE ${JN_GMSH_INCLUDE})

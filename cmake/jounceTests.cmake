@@ -1,3 +1,9 @@
+# Limits of time are for a processor that others use too; sanitizers make a test some ten times as slow.
+set(JN_TEST_SECONDS 300)
+if(JN_SANITIZE)
+	set(JN_TEST_SECONDS 1500)
+endif()
+
 # Every test/<folder>/<name>_test.c is one executable and one test, <folder>_<name>. Files called *_long_test.c carry the
 # label `long`; `ctest -LE long`, `ctest --preset release` and `./dev test` leave them out.
 jounce_find(cmocka cmocka.h libcmocka-dev LIBRARIES cmocka)
@@ -18,6 +24,15 @@ if(support_sources)
 	target_link_libraries(jounce_test_support PUBLIC jounce_test)
 endif()
 
+# The calls of test/support/refused_calls.c.
+set(refused_calls pwrite pread ftruncate fstat fopen fflush fwrite fread vfprintf fseek rename mkdir open close fclose fsync
+	fdatasync waitpid posix_spawn_file_actions_init posix_spawn_file_actions_addopen posix_spawn_file_actions_adddup2
+	posix_spawnp H5FDregister H5Pset_driver H5Pcreate H5Pset_create_intermediate_group H5Pset_libver_bounds
+	H5Pget_mdc_config H5Pset_cache H5Pset_fclose_degree H5Fcreate H5Fopen H5Fflush H5Fclose H5Gcreate2 H5Gclose H5Screate
+	H5Screate_simple H5Sselect_hyperslab H5Sget_simple_extent_dims H5Dcreate2 H5Dopen2 H5Dget_space H5Dset_extent H5Dwrite
+	H5Dclose H5Oopen H5Aexists H5Aopen H5Acreate2 H5Awrite H5Aclose H5Ldelete)
+list(TRANSFORM refused_calls PREPEND "-Wl,--wrap=" OUTPUT_VARIABLE JN_REFUSED_CALLS_WRAP)
+
 file(GLOB test_sources CONFIGURE_DEPENDS test/*/*_test.c)
 foreach(source IN LISTS test_sources)
 	cmake_path(GET source PARENT_PATH folder)
@@ -36,12 +51,32 @@ foreach(source IN LISTS test_sources)
 		target_link_options(${name} PRIVATE ${JN_ALLOCATOR_WRAP} ${JN_ARENA_WRAP})
 	endif()
 
+	if(name MATCHES "_refused_call$")
+		target_link_options(${name} PRIVATE ${JN_REFUSED_CALLS_WRAP})
+	endif()
+
 	add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/test)
-	set_tests_properties(${name} PROPERTIES TIMEOUT 300 ENVIRONMENT "OMP_WAIT_POLICY=passive")
+	set_tests_properties(${name} PROPERTIES TIMEOUT ${JN_TEST_SECONDS} ENVIRONMENT "OMP_WAIT_POLICY=passive")
+	if(name MATCHES "_refused_call$" AND JN_SANITIZE) # a process for each time that a run is gone on with
+		set_tests_properties(${name} PROPERTIES TIMEOUT 1200)
+	endif()
 	if(name MATCHES "_long$")
 		set_tests_properties(${name} PROPERTIES TIMEOUT 3600 LABELS long)
 	endif()
 endforeach()
+
+# What each sanitizer is for, done on purpose: a build in which it is silent finds nothing in the other tests either.
+function(jounce_add_sanitizer_test sanitizer name report)
+	if("${JN_SANITIZE}" MATCHES "${sanitizer}")
+		add_executable(sanitizer_${name} test/sanitizer/${name}.c)
+		target_link_libraries(sanitizer_${name} PRIVATE jounce_flags OpenMP::OpenMP_C)
+		add_test(NAME sanitizer_${name} COMMAND sanitizer_${name})
+		set_tests_properties(sanitizer_${name} PROPERTIES PASS_REGULAR_EXPRESSION "${report}")
+	endif()
+endfunction()
+jounce_add_sanitizer_test(thread race "data race")
+jounce_add_sanitizer_test(address overrun "heap-buffer-overflow")
+jounce_add_sanitizer_test(undefined overflow "signed integer overflow")
 
 # The command's readers of recordings, and recordings to damage.
 if(TARGET app_recording)
@@ -80,18 +115,18 @@ else()
 	message(STATUS "without the tests of the viewer's page: they need the page and Chromium (Debian: apt-get install chromium)")
 endif()
 
-# What is built against an installed library has no sanitizer to link.
-if(TARGET jounce_command AND NOT JN_SANITIZE)
+# What is built against an installed library has no sanitizer to link, nor gcov.
+if(TARGET jounce_command AND NOT JN_SANITIZE AND NOT CMAKE_BUILD_TYPE STREQUAL "Coverage")
 	add_test(NAME examples COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/examples/build_and_run
 		${CMAKE_CURRENT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/examples_test)
-	set_tests_properties(examples PROPERTIES TIMEOUT 300)
+	set_tests_properties(examples PROPERTIES TIMEOUT ${JN_TEST_SECONDS})
 endif()
 
 # XDMF and VTU in the readers that users have: meshio's and VTK's.
 if(JN_PYTHON AND TARGET jounce_command)
 	add_test(NAME app_readers COMMAND ${JN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/test/app/check_readers.py
 		$<TARGET_FILE:jounce_command> ${CMAKE_CURRENT_BINARY_DIR}/readers_test)
-	set_tests_properties(app_readers PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+	set_tests_properties(app_readers PROPERTIES TIMEOUT ${JN_TEST_SECONDS} SKIP_RETURN_CODE 77)
 endif()
 
 # Khronos' validator of glTF is a package of npm.
@@ -101,7 +136,7 @@ mark_as_advanced(JN_NODE JN_NPM)
 if(JN_NODE AND JN_NPM AND TARGET jounce_command)
 	add_test(NAME app_gltf COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test/app/gltf/validate $<TARGET_FILE:jounce_command>
 		${CMAKE_CURRENT_BINARY_DIR}/gltf_test)
-	set_tests_properties(app_gltf PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+	set_tests_properties(app_gltf PROPERTIES TIMEOUT ${JN_TEST_SECONDS} SKIP_RETURN_CODE 77)
 else()
 	message(STATUS "without node and npm: glTF files are not validated (Debian: apt-get install nodejs npm)")
 endif()
@@ -122,10 +157,27 @@ if(TARGET jounce_command)
 	add_test(NAME random_scenes COMMAND ${run_random_scenes} --count 60 --out ${CMAKE_CURRENT_BINARY_DIR}/random)
 	add_test(NAME random_scenes_long COMMAND ${run_random_scenes} --first 1000 --count 1000
 		--out ${CMAKE_CURRENT_BINARY_DIR}/random_long)
-	add_test(NAME soak_long COMMAND ${JN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/soak
-		${CMAKE_CURRENT_SOURCE_DIR}/scenes/ball.yaml --jounce $<TARGET_FILE:jounce_command> --set duration=100000
-		--set record.plots=no --seconds 20 --settle 8)
-	set_tests_properties(soak_long PROPERTIES TIMEOUT 3600 LABELS long)
+	# What a run takes for its frames, and what it frees and takes again at each saved state: 0.05 s apart, as minutes have.
+	set(soak ${JN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/soak --jounce $<TARGET_FILE:jounce_command> --set record.plots=no)
+	add_test(NAME soak_frames_long COMMAND ${soak} ${CMAKE_CURRENT_SOURCE_DIR}/scenes/ball.yaml --set duration=100000
+		--seconds 20 --settle 8)
+	add_test(NAME soak_saved_long COMMAND ${soak} ${CMAKE_CURRENT_SOURCE_DIR}/scenes/shatter.yaml --set duration=1000
+		--set checkpoint.every=0.05 --seconds 40 --settle 15)
+	set_tests_properties(soak_frames_long soak_saved_long PROPERTIES TIMEOUT 3600 LABELS long)
 	set_tests_properties(random_known random_scenes PROPERTIES TIMEOUT 1200 SKIP_RETURN_CODE 77)
 	set_tests_properties(random_scenes_long PROPERTIES TIMEOUT 3600 SKIP_RETURN_CODE 77 LABELS long)
+endif()
+
+# Damaged copies of a recording, each read by a command.
+if(JN_PYTHON AND TARGET jounce_command)
+	set(damage_recordings ${JN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/damage_recordings
+		--jounce $<TARGET_FILE:jounce_command>)
+	add_test(NAME damaged_recordings COMMAND ${damage_recordings} --copies 120)
+	add_test(NAME damaged_recordings_others
+		COMMAND ${damage_recordings} --copies 12 --reader report,view,resume,compare)
+	add_test(NAME damaged_recordings_long COMMAND ${damage_recordings} --copies 3000 --seed 2)
+	add_test(NAME damaged_recordings_others_long
+		COMMAND ${damage_recordings} --copies 500 --seed 2 --reader report,view,resume,compare)
+	set_tests_properties(damaged_recordings damaged_recordings_others PROPERTIES TIMEOUT 1200)
+	set_tests_properties(damaged_recordings_long damaged_recordings_others_long PROPERTIES TIMEOUT 7200 LABELS long)
 endif()

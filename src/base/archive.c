@@ -124,11 +124,10 @@ void jn_archive_indices(JnArchive* archive, const char* name, int* values, size_
 		memcpy(&value, bytes + i * sizeof value, sizeof value);
 		if (value < low || value >= high) found = 0;
 	}
-	if (found != count * sizeof *values || count == 0) {
-		if (count > 0) jn_archive_refuse(archive, name, "has numbers that the scene does not have");
-		return;
-	}
-	memcpy(values, bytes, found);
+	if (found != count * sizeof *values)
+		jn_archive_refuse(archive, name, "has numbers that the scene does not have");
+	else if (count > 0)
+		memcpy(values, bytes, found);
 }
 
 const char* jn_archive_text(JnArchive* archive, const char* name, const char* text) {

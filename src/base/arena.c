@@ -1,12 +1,13 @@
-// A chain of malloc'ed blocks; a request larger than a block gets a block of its own.
+// A chain of zeroed blocks; a request larger than a block gets a block of its own.
 #include "base/arena.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/aligned.h"
 #include "base/log.h"
 
-enum { ALIGNMENT = 64, BLOCK_BYTES = 1 << 16 };
+enum { ALIGNMENT = JN_ALIGNMENT, BLOCK_BYTES = 1 << 16 };
 
 struct JnArenaBlock {
 	JnArenaBlock* next;
@@ -19,7 +20,7 @@ static size_t round_up(size_t bytes) {
 
 static JnArenaBlock* add_block(JnArena* arena, size_t bytes) {
 	const size_t size = bytes > BLOCK_BYTES ? bytes : BLOCK_BYTES;
-	JnArenaBlock* block = aligned_alloc(ALIGNMENT, ALIGNMENT + size);
+	JnArenaBlock* block = jn_aligned_take(ALIGNMENT + size);
 	if (block == NULL) return NULL;
 	*block = (JnArenaBlock){.next = arena->blocks, .size = size, .used = 0};
 	arena->blocks = block;
@@ -39,7 +40,7 @@ void* jn_arena_take(JnArena* arena, size_t count, size_t size) {
 	char* data = (char*)block + ALIGNMENT + block->used;
 	block->used += bytes;
 	arena->used += bytes;
-	return memset(data, 0, bytes);
+	return data;
 }
 
 char* jn_arena_text(JnArena* arena, const char* text) {
@@ -51,7 +52,7 @@ char* jn_arena_text(JnArena* arena, const char* text) {
 void jn_arena_free(JnArena* arena) {
 	while (arena->blocks != NULL) {
 		JnArenaBlock* next = arena->blocks->next;
-		free(arena->blocks);
+		jn_aligned_free(arena->blocks);
 		arena->blocks = next;
 	}
 	arena->used = 0;

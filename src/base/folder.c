@@ -11,7 +11,7 @@ JnStatus jn_folder_make(const char* path) {
 	char part[4096];
 	const size_t length = strlen(path);
 	if (length == 0 || length >= sizeof part)
-		return jn_error(JN_IO_FAILED, "'%s' is no usable folder name; choose another output with -o", path);
+		return jn_error(JN_IO_FAILED, "'%.100s' is no usable folder name; choose another output with -o", path);
 	for (size_t i = 1; i <= length; ++i) {
 		if (path[i] != '/' && path[i] != '\0') continue;
 		memcpy(part, path, i);

@@ -252,20 +252,13 @@ JnQuantityFault jn_quantity_read(const char* text, const char* unit, double* val
 }
 
 const char* jn_quantity_parse(const char* text, const char* unit, double* value) {
+	static const char* const faults[] = {[JN_QUANTITY_FINE] = NULL,
+										 [JN_QUANTITY_NO_NUMBER] = "is no number",
+										 [JN_QUANTITY_NOT_FINITE] = "is no finite number",
+										 [JN_QUANTITY_UNKNOWN_UNIT] = "has an unknown unit",
+										 [JN_QUANTITY_WRONG_UNIT] = "has the wrong unit"};
 	const char* unit_text;
-	switch (jn_quantity_read(text, unit, value, &unit_text)) {
-	case JN_QUANTITY_FINE:
-		return NULL;
-	case JN_QUANTITY_NO_NUMBER:
-		return "is no number";
-	case JN_QUANTITY_NOT_FINITE:
-		return "is no finite number";
-	case JN_QUANTITY_UNKNOWN_UNIT:
-		return "has an unknown unit";
-	case JN_QUANTITY_WRONG_UNIT:
-		return "has the wrong unit";
-	}
-	return "is no number";
+	return faults[jn_quantity_read(text, unit, value, &unit_text)];
 }
 
 void jn_quantity_expect(const char* unit, size_t size, char* sentence) {

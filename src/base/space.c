@@ -8,10 +8,11 @@
 #include <string.h>
 
 #include "base/algebra.h"
+#include "base/aligned.h"
 #include "base/log.h"
 #include "base/parallel.h"
 
-enum { CHUNK = JN_ALGEBRA_CHUNK, ALIGNMENT = 64, GRAIN = 65536, MOST_TERMS = 16 };
+enum { CHUNK = JN_ALGEBRA_CHUNK, GRAIN = 65536, MOST_TERMS = 16 };
 
 typedef struct HostSpace {
 	JnSpace base;
@@ -21,18 +22,14 @@ typedef struct HostSpace {
 } HostSpace;
 
 static JnVec create(JnSpace* space) {
-	const size_t bytes = (space->length * sizeof(double) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-	JnVec vec = aligned_alloc(ALIGNMENT, bytes > 0 ? bytes : ALIGNMENT);
-	if (vec == NULL) {
-		jn_error(JN_OUT_OF_MEMORY, "out of memory: a vector of %zu numbers", space->length);
-		return NULL;
-	}
-	return memset(vec, 0, bytes);
+	JnVec vec = jn_aligned_take(space->length * sizeof(double));
+	if (vec == NULL) jn_error(JN_OUT_OF_MEMORY, "out of memory: a vector of %zu numbers", space->length);
+	return vec;
 }
 
 static void destroy(JnSpace* space, JnVec vec) {
 	(void)space;
-	free(vec);
+	jn_aligned_free(vec);
 }
 
 static int threads_of(const JnSpace* space) {

@@ -93,39 +93,31 @@ typedef double Wide __attribute__((vector_size(JN_WIDE * 8)));
 typedef int64_t Mask __attribute__((vector_size(JN_WIDE * 8)));
 typedef double Loaded __attribute__((vector_size(JN_WIDE * 8), aligned(8), may_alias));
 
-// The larger of two numbers >= 0, lane by lane.
-static inline Wide larger(Wide a, Wide b) {
+// The larger of two integers, lane by lane.
+static inline Mask larger(Mask a, Mask b) {
 #if defined(__SSE2__) && JN_WIDE == 8
-	return (Wide)_mm512_max_pd((__m512d)a, (__m512d)b);
+	return (Mask)_mm512_max_epi64((__m512i)a, (__m512i)b);
 #elif defined(__SSE2__) && JN_WIDE == 4
-	return (Wide)_mm256_max_pd((__m256d)a, (__m256d)b);
-#elif defined(__SSE2__)
-	return (Wide)_mm_max_pd((__m128d)a, (__m128d)b);
+	return (Mask)_mm256_blendv_epi8((__m256i)a, (__m256i)b, (__m256i)(a < b));
 #else
 	const Mask is_less = a < b;
-	return (Wide)((is_less & (Mask)b) | (~is_less & (Mask)a));
+	return (is_less & b) | (~is_less & a);
 #endif
 }
 
-// Comparisons lose a NAN, and so does the larger of two; where all are finite, there is none. Two chains hide the latency
-// of each other.
+// Without their signs, numbers are in the order of their bits taken as integers, and those of a NAN are the largest. Two
+// chains hide the latency of each other.
 static double max(size_t n, const double* a) {
-	Wide most[2] = {{0}, {0}};
-	Mask is_finite = ~(Mask){0};
+	Mask most[2] = {{0}, {0}};
 	size_t k = 0;
 	for (; k + 2 * JN_WIDE <= n; k += 2 * JN_WIDE)
-		for (int c = 0; c < 2; ++c) {
-			const Wide size = (Wide)((Mask) * (const Loaded*)(a + k + (size_t)c * JN_WIDE) & INT64_MAX);
-			most[c] = larger(most[c], size);
-			is_finite &= size <= DBL_MAX;
-		}
+		for (int c = 0; c < 2; ++c)
+			most[c] = larger(most[c], (Mask) * (const Loaded*)(a + k + (size_t)c * JN_WIDE) & INT64_MAX);
+	const Wide sizes = (Wide)larger(most[0], most[1]);
 	double out = max_of_any(n - k, a + k);
-	bool all_finite = out <= DBL_MAX;
-	for (int l = 0; l < JN_WIDE; ++l) {
-		all_finite &= is_finite[l] != 0;
-		out = fmax(out, fmax(most[0][l], most[1][l]));
-	}
-	return all_finite ? out : max_of_any(n, a);
+	for (int l = 0; l < JN_WIDE; ++l)
+		if (!(sizes[l] <= out) && !isnan(out)) out = sizes[l];
+	return out;
 }
 
 static void multiply(size_t n, const double* a, const double* b, double* out) {

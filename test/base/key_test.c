@@ -548,6 +548,8 @@ static void markdown_has_a_table_for_each_mapping(void** state) {
 	expect_in(text, "| `corotated` | large rotations \\| small strains | as for `linear` |\n");
 	expect_in(text, "| `rigid` | no strain at all | none |\n");
 	expect_in(text, "## `bodies[].material` with `law: linear`\n\n| Key |");
+	describe(scene_keys, "bodies.material.corotated", MARKDOWN_FORM, sizeof text, text);
+	expect_in(text, "`law: corotated`\n\nlarge rotations \\| small strains\n\n| Key |");
 }
 
 // A row may hold a variant of its own catalogue, such as a method that is composed of methods.

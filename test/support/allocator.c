@@ -9,12 +9,10 @@
 void* __real_malloc(size_t size);
 void* __real_calloc(size_t count, size_t size);
 void* __real_realloc(void* data, size_t size);
-void* __real_aligned_alloc(size_t alignment, size_t size);
 FILE* __real_open_memstream(char** data, size_t* size);
 void* __wrap_malloc(size_t size);
 void* __wrap_calloc(size_t count, size_t size);
 void* __wrap_realloc(void* data, size_t size);
-void* __wrap_aligned_alloc(size_t alignment, size_t size);
 FILE* __wrap_open_memstream(char** data, size_t* size);
 
 static atomic_size_t taken, limit;
@@ -46,8 +44,10 @@ void allocator_watch(void (*watch)(const void* site, long number)) {
 	watcher = watch;
 }
 
-void allocator_stand_in(const void* site) {
+const void* allocator_stand_in(const void* site) {
+	const void* before = stand_in;
 	stand_in = site;
+	return before;
 }
 
 bool allocator_refuses(size_t size, const void* site) {
@@ -77,10 +77,6 @@ void* __wrap_calloc(size_t number, size_t size) {
 
 void* __wrap_realloc(void* data, size_t size) {
 	return allocator_refuses(size, __builtin_return_address(0)) ? NULL : __real_realloc(data, size);
-}
-
-void* __wrap_aligned_alloc(size_t alignment, size_t size) {
-	return allocator_refuses(size, __builtin_return_address(0)) ? NULL : __real_aligned_alloc(alignment, size);
 }
 
 FILE* __wrap_open_memstream(char** data, size_t* size) {

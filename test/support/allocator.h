@@ -27,7 +27,7 @@ void allocator_watch(void (*watch)(const void* site, long number));
 /// For those who stand between a caller and the allocator: count an allocation of `size` bytes, and tell whether to refuse it.
 bool allocator_refuses(size_t size, const void* site);
 
-/// From now on, in this thread, allocations count as those of `site`; NULL: as those of who calls.
-void allocator_stand_in(const void* site);
+/// From now on, in this thread, allocations count as those of `site`; NULL: as those of who calls. Returns the site until now.
+const void* allocator_stand_in(const void* site);
 
 #endif

@@ -56,17 +56,18 @@ void golden_prepare(char** arguments) {
 }
 
 char** golden_scenes(const char* folder) {
-	static glob_t found;
+	enum { MOST_SCENES = 256 };
+	static glob_t found; // frees the paths that are left out, too
+	static char* kept[MOST_SCENES + 1];
 	char pattern[512];
-	size_t kept = 0;
+	size_t count = 0;
 	globfree(&found);
 	snprintf(pattern, sizeof pattern, "%s/*.yaml", folder);
 	if (glob(pattern, 0, NULL, &found) != 0) fail_msg("there are no scenes in %s", folder);
-	for (size_t i = 0; i < found.gl_pathc; ++i)
-		if (strstr(found.gl_pathv[i], "_large.yaml") == NULL) found.gl_pathv[kept++] = found.gl_pathv[i];
-	found.gl_pathv[kept] = NULL;
-	found.gl_pathc = kept;
-	return found.gl_pathv;
+	for (size_t i = 0; i < found.gl_pathc && count < MOST_SCENES; ++i)
+		if (strstr(found.gl_pathv[i], "_large.yaml") == NULL) kept[count++] = found.gl_pathv[i];
+	kept[count] = NULL;
+	return kept;
 }
 
 static void name_scene(const char* path, char name[32]) {
