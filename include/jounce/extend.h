@@ -360,6 +360,14 @@ typedef struct JnPassField {
 	int components; ///< a node: 1 or 3
 } JnPassField;
 
+/// Why an attempt failed in a pass.
+typedef struct JnPassComplaint {
+	char cause[240];  ///< a clause behind the outcome, as "in contact of 'a' with 'b', ..."; "": it has not failed here
+	char remedy[120]; ///< what to try beside a smaller step: a list behind "Try"; or ""
+	int node;         ///< of the model, where that is; -1: not known
+	double share;     ///< of the attempt's step, at which it should go well; 0: not known
+} JnPassComplaint;
+
 /// What happens to an attempt, in this order; each verb may be NULL:
 ///   prepare -> integrator -> correct, again if `correct` asks for it -> controller -> commit when it is accepted.
 /// A rejected attempt leaves no trace: only `commit` changes what a pass remembers.
@@ -381,8 +389,8 @@ typedef struct JnPassType {
 	/// Add to `force`, 3 numbers a node, what the pass did to held nodes in the last accepted step beside the loads of the
 	/// system [N]; to others it may add anything. NULL: nothing.
 	void (*react)(const JnPass*, double* force);
-	/// Why the last attempt failed in this pass: a clause for a message, or "". At most `size` bytes.
-	void (*explain)(const JnPass*, size_t size, char* text);
+	/// Why the last attempt failed in this pass; `out` comes empty, with node -1. NULL: it never fails.
+	void (*explain)(const JnPass*, JnPassComplaint* out);
 	/// Write or read what the next step and the recording of the last one depend on. What can be found again from the model
 	/// and the state need not be there. NULL: nothing does.
 	void (*archive)(JnPass*, JnArchive*);

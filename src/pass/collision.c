@@ -12,10 +12,14 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LOOKS = 4 }; // further ones, where impulses lead
+enum {
+	LOOKS = 4,         // further ones, where impulses lead
+	MANY_SWEEPS = 100, // which resolve stacks of some ten threads
+};
 
 static const double longest_carry = 10; // times the impulses of a step much shorter than the one in which they act
 static const double too_deep = 0.5;     // of the distance at which two touch: overlap that fails an attempt
+static const double harmless = 0.1;     // likewise: overlap that sweeps push out without throwing anything
 
 static JnCollision* of(JnPass* pass) {
 	return (JnCollision*)pass;
@@ -82,7 +86,8 @@ static void tally(JnCollision* pass, const JnStep* step) {
 		jn_block_motion(&pass->now, block, step->start->v, from);
 		jn_block_motion(&pass->now, block, step->end->v, to);
 		tally->overlap = fmax(tally->overlap, block->touch - x[0]);
-		pass->missed = fmax(pass->missed, block->target[JN_LEVEL_POSITION][0] - x[0]);
+		const double missed = block->target[JN_LEVEL_POSITION][0] - x[0];
+		if (missed > pass->missed) pass->missed = missed, pass->missed_at = pass->now.entries[block->first].node;
 		tally->pressing += lambda[0] > 0;
 		tally->impulse += lambda[0];
 		for (int r = 0; r < 3; ++r) tally->work += 0.5 * lambda[r] * (from[r] + to[r]);
@@ -188,12 +193,23 @@ static void archive_collision(JnPass* base, JnArchive* archive) {
 	jn_model_system_set_load(pass->model, JN_LOAD_OF_COLLISION, pass->is_loaded ? pass->load : NULL);
 }
 
-static void explain(const JnPass* base, size_t size, char* text) {
+static void explain(const JnPass* base, JnPassComplaint* out) {
 	const JnCollision* pass = (const JnCollision*)base;
-	if (pass->ran_away > 0)
-		snprintf(text, size, " in collision, where something moves by %.2g m within the step", pass->ran_away);
-	else if (pass->has_failed)
-		snprintf(text, size, " in collision, where sweeps leave %.2g m of overlap", pass->missed);
+	if (pass->ran_away > 0) {
+		snprintf(out->cause, sizeof out->cause,
+				 "in collision, where something moves by %.2g m within the step, more than %d times the length of the "
+				 "shortest thread, %.2g m",
+				 pass->ran_away, JN_COLLISION_TOO_FAR, pass->extent);
+		out->share = pass->extent / pass->ran_away;
+	} else if (pass->has_failed) {
+		snprintf(out->cause, sizeof out->cause,
+				 "in collision, where sweeps leave %.2g m of overlap, more than %g radii, %.2g m", pass->missed,
+				 too_deep, too_deep * pass->largest_radius);
+		out->node = pass->missed_at;
+		out->share = harmless * pass->largest_radius / pass->missed;
+		if (pass->def->iterations < MANY_SWEEPS)
+			snprintf(out->remedy, sizeof out->remedy, "collision.iterations: %d", MANY_SWEEPS);
+	}
 }
 
 static const JnPassColumn columns[] = {

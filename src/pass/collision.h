@@ -52,6 +52,9 @@ typedef struct JnWatch {
 	double clear; ///< they meet only once they have moved by more than this together [m]; 0: not known
 } JnWatch;
 
+/// Lengths of the shortest thread that something may move in a step: nothing is found there but what explodes.
+enum { JN_COLLISION_TOO_FAR = 100 };
+
 /// Who else has blocks solved with those of collisions, and says which links pass through a body.
 typedef struct JnCollisionGuest {
 	void* user; ///< NULL: nobody
@@ -107,7 +110,8 @@ typedef struct JnCollision {
 	bool has_failed;
 	double ran_away;              ///< by which a point moves in the attempt, when that is absurd [m]; 0: it is not
 	double extent;                ///< of the shortest thread along its axis [m]
-	double missed;                ///< [m]
+	double missed;                ///< overlap that sweeps have left in the attempt [m]
+	int missed_at;                ///< a node there
 	JnCollisionTally tally, last; ///< of the attempt, and of the last accepted step; work summed up
 	double total_work;
 } JnCollision;

@@ -124,7 +124,7 @@ static bool frame_passes(const JnCollision* pass, int frame, int body) {
 
 JnStatus jn_collision_frame_on_surface(JnCollision* pass, const JnStep* step, int count, const JnWatch* watches) {
 	const double touch = pass->strands[pass->frame_strand[watches->first]].radius;
-	Place nearest = {.gap = INFINITY}, place;
+	Place nearest = {.gap = INFINITY}, place = nearest;
 	if (frame_passes(pass, watches->first, pass->hides[watches->hide].body)) return JN_OK;
 	if (!find_nearest(pass, count, watches, 0, touch, &place)) {
 		find_nearest(pass, count, watches, 1, touch, &nearest);

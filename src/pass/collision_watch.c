@@ -9,7 +9,6 @@
 #include "pass/collision.h"
 
 static const double least_reach = 0.5; // in largest radii
-static const double too_far = 100;     // lengths of a thread in a step: nothing is found there but what explodes
 static const double steps_ahead = 8;   // for which the pairs of a fast thread should do
 
 void jn_collision_points(const JnCollision* pass, const double* x, double (*out)[3]) {
@@ -184,7 +183,7 @@ static JnStatus look_around(JnCollision* pass) {
 	pass->is_watching = false;
 	const double travel = sqrt(jn_collision_farthest(points, pass->start, pass->end));
 	if (!isfinite(travel)) return JN_NOT_FINITE;
-	pass->ran_away = travel > too_far * pass->extent ? travel : 0;
+	pass->ran_away = travel > JN_COLLISION_TOO_FAR * pass->extent ? travel : 0;
 	return pass->ran_away == 0 ? choose(pass, travel) : JN_NOT_CONVERGED;
 }
 

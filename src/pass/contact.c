@@ -25,6 +25,8 @@
 static const double settled = 1e-3; // relative change of forces at which rounds end
 static const double lever = 0.6;    // theta; see the top
 
+static const double easy = 4; // margins that nodes may move within a step, where corrections have come to no end
+
 static JnContactPass* of(JnPass* pass) {
 	return (JnContactPass*)pass;
 }
@@ -126,20 +128,37 @@ static const char* name_of(const JnContactPass* pass, const JnContact* contact) 
 												   : pass->model->bodies[pass->skins[contact->other_skin].body].name;
 }
 
-static void explain(const JnPass* base, size_t size, char* text) {
+// Settings of the solver that the defaults beat.
+static void advise_solver(const JnContactPass* pass, size_t size, char* remedy) {
+	static const JnQpDef plenty = {.tolerance = 1e-7, .max_iterations = 2000};
+	const JnQpDef* def = &pass->qp->options;
+	const bool is_strict = def->tolerance < plenty.tolerance || def->max_iterations < plenty.max_iterations;
+	if (is_strict || pass->qp->type != &jn_qp_auto)
+		snprintf(remedy, size, "contact.solver: {method: auto, max_iterations: %d, tolerance: %g}",
+				 plenty.max_iterations, plenty.tolerance);
+}
+
+static void explain(const JnPass* base, JnPassComplaint* out) {
 	const JnContactPass* pass = (const JnContactPass*)base;
 	if (!pass->has_failed) return;
 	const JnContact* contact = &pass->worst;
 	const JnSkin* skin = &pass->skins[contact->vertex_skin];
-	char why[64];
-	if (pass->passed > 0)
-		snprintf(why, sizeof why, "which it would enter by %.2g m", pass->passed);
-	else if (isfinite(pass->tally.residual))
-		snprintf(why, sizeof why, "relative residual %.1e", pass->tally.residual);
-	else
-		snprintf(why, sizeof why, "whose impulses are beyond all bounds");
-	snprintf(text, size, " in contact of '%.60s' (near node %d) with '%.60s', %s", pass->model->bodies[skin->body].name,
-			 skin->nodes[(ptrdiff_t)skin->carriers * contact->vertex], name_of(pass, contact), why);
+	out->node = skin->nodes[(ptrdiff_t)skin->carriers * contact->vertex];
+	const int used = snprintf(out->cause, sizeof out->cause, "in contact of '%.40s' with '%.40s', ",
+							  pass->model->bodies[skin->body].name, name_of(pass, contact));
+	char* why = out->cause + used;
+	const size_t size = sizeof out->cause - (size_t)used;
+	if (pass->passed > 0) {
+		snprintf(why, size, "which it would enter by %.2g m, more than the margin of %.2g m", pass->passed,
+				 pass->margin);
+		out->share = fmin(pass->margin / pass->passed, easy * pass->margin / pass->travel);
+	} else if (isfinite(pass->tally.residual)) {
+		snprintf(why, size, "where a relative residual of %.2g is left, above contact.solver.tolerance, %.2g",
+				 pass->tally.residual, pass->qp->options.tolerance);
+		advise_solver(pass, sizeof out->remedy, out->remedy);
+	} else {
+		snprintf(why, size, "whose impulses are beyond all bounds");
+	}
 }
 
 const JnPassType jn_pass_contact = {

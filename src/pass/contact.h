@@ -100,6 +100,7 @@ typedef struct JnContactPass {
 	bool has_failed;         ///< contact failed the last attempt,
 	JnContact worst;         ///< at this one,
 	double passed;           ///< which would still pass through by this much [m]; 0: its impulse was not found
+	double travel;           ///< then: the longest way of a node in that attempt [m]
 	JnContactObserver* observer;
 	void* observer_user;
 	JnContactTally tally, total; ///< of the attempt; of accepted steps, works summed up

@@ -1,10 +1,16 @@
 // One correction: from the contacts found to velocities and positions, with further looks at where these lead.
+#include <math.h>
 #include <string.h>
 
 #include "base/timer.h"
+#include "math/vec3.h"
 #include "pass/contact.h"
 
 enum { LOOKS = 6 }; // corrections of a prediction, after which what still passes through fails the attempt
+
+// No body becomes so many times as large in a step but where the integrator goes astray. Hundreds of contacts without a
+// solution would be all that is left of its surface, and minutes spent on them.
+static const double torn = 10;
 
 // free_v = vp - dt C^-1 load
 static JnStatus find_free_velocities(JnContactPass* pass, const JnStep* step) {
@@ -73,9 +79,39 @@ static bool find_positions(JnContactPass* pass, const JnStep* step) {
 	return moved;
 }
 
+// The longest way of a node from start to end of the prediction.
+static double longest_way(const JnContactPass* pass, const JnStep* step) {
+	double most = 0;
+	for (size_t k = 0; k < jn_contact_entries(pass); k += 3)
+		most = fmax(most, vec3_distance(step->start->x + k, step->end->x + k));
+	return most;
+}
+
+// Diagonal of the box about a body.
+static double extent(const JnContactPass* pass, int body, const double* x) {
+	const size_t first = jn_contact_first_entry(pass, body), end = first + jn_contact_entry_count(pass, body);
+	double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+	for (size_t k = first; k < end; ++k) {
+		low[k % 3] = x[k] < low[k % 3] ? x[k] : low[k % 3];
+		high[k % 3] = x[k] > high[k % 3] ? x[k] : high[k % 3];
+	}
+	return vec3_distance(low, high);
+}
+
+// Whether the prediction tears a body: what went wrong is the integrator's, for the words of other causes to tell.
+static bool tears_a_body(const JnContactPass* pass, const JnStep* step) {
+	bool is_torn = false;
+	for (int b = 0; b < pass->model->body_count && !is_torn; ++b) {
+		const double before = fmax(extent(pass, b, step->start->x), extent(pass, b, pass->model->rest));
+		is_torn = extent(pass, b, step->end->x) > torn * before;
+	}
+	return is_torn;
+}
+
 JnStatus jn_contact_correct(JnContactPass* pass, const JnStep* step) {
 	memset(pass->is_filled, 0, (size_t)pass->model->body_count * sizeof *pass->is_filled);
 	JN_TRY(jn_contact_find(pass, step, &pass->tally.pairs));
+	if (pass->now.count > 0 && tears_a_body(pass, step)) return JN_NOT_CONVERGED;
 	for (int k = 0; k < LOOKS; ++k) {
 		int missed;
 		double depth;
@@ -87,6 +123,7 @@ JnStatus jn_contact_correct(JnContactPass* pass, const JnStep* step) {
 		if (k + 1 == LOOKS && depth > pass->margin) {
 			pass->has_failed = true;
 			pass->passed = depth;
+			pass->travel = longest_way(pass, step);
 			return JN_NOT_CONVERGED;
 		}
 		if (k + 1 < LOOKS) JN_TRY(jn_contact_extend(pass, step));

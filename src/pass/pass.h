@@ -41,7 +41,7 @@ void jn_passes_react(const JnPasses* passes, double* force);
 /// Write or read what the passes remember.
 void jn_passes_archive(JnPasses* passes, JnArchive* archive);
 
-/// The first explanation that a pass has, or "".
-void jn_passes_explain(const JnPasses* passes, size_t size, char* text);
+/// The first complaint that a pass has; its cause is "" when none has failed.
+void jn_passes_explain(const JnPasses* passes, JnPassComplaint* out);
 
 #endif

@@ -40,7 +40,7 @@ JnStatus jn_passes_create(const JnSimDef* def, JnModel* model, JnPasses* passes)
 		const void* place = (const char*)def + type->definition;
 		const void* options = type->is_always ? place : *(const void* const*)place;
 		JnPass* pass = NULL;
-		const JnStatus status = options != NULL ? type->create(options, model, &pass) : JN_OK;
+		const JnStatus status = type->is_always || options != NULL ? type->create(options, model, &pass) : JN_OK;
 		if (pass != NULL) passes->list[passes->count++] = pass;
 		if (status == JN_OK) continue;
 		jn_passes_destroy(passes);
@@ -90,8 +90,8 @@ void jn_passes_archive(JnPasses* passes, JnArchive* archive) {
 		if (passes->list[i]->type->archive != NULL) passes->list[i]->type->archive(passes->list[i], archive);
 }
 
-void jn_passes_explain(const JnPasses* passes, size_t size, char* text) {
-	text[0] = '\0';
-	for (int i = 0; i < passes->count && text[0] == '\0'; ++i)
-		if (passes->list[i]->type->explain != NULL) passes->list[i]->type->explain(passes->list[i], size, text);
+void jn_passes_explain(const JnPasses* passes, JnPassComplaint* out) {
+	*out = (JnPassComplaint){.node = -1};
+	for (int i = 0; i < passes->count && out->cause[0] == '\0'; ++i)
+		if (passes->list[i]->type->explain != NULL) passes->list[i]->type->explain(passes->list[i], out);
 }

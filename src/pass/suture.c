@@ -2,6 +2,7 @@
 // where it was in the last accepted step; only `commit` keeps that, makes sites and releases them.
 #include "pass/suture.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -52,6 +53,7 @@ double jn_suture_slide(const JnSuture* pass, const JnSite* site, const double* x
 	const int links = strand_of(pass)->link_count;
 	double q[3], ends[2][3], c[3], share = 0;
 	int link = (int)fmin(fmax(floor(*s), 0), links - 1), came_from = -1;
+	assert(links > 0); // or no end of a link would be known
 	site_at(site, x, q);
 	*beyond = 0;
 	for (int k = 0; k <= links; ++k) {

@@ -46,7 +46,7 @@ static bool find_passage(const JnSuture* pass, double after, Passage* out) {
 	const int tip = jn_suture_frame(pass, 0);
 	JnTouchPath path = {.start = {collision->start[tip]}, .end = {collision->end[tip]}};
 	const double slack = 1e-3 * collision->strands[pass->strand].radius;
-	out->when = INFINITY;
+	*out = (Passage){.when = INFINITY};
 	for (int t = 0; t < skin->triangle_count; ++t) {
 		JnTouch touch;
 		for (int i = 0; i < 3; ++i) {

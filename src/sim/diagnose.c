@@ -58,10 +58,18 @@ static bool find_refusal(JnFailure* f) {
 }
 
 static bool find_in_pass(JnFailure* f) {
-	char reason[256];
-	jn_passes_explain(&f->sim->passes, sizeof reason, reason);
-	if (reason[0] == '\0' || f->outcome == JN_OK) return false;
-	snprintf(f->cause, sizeof f->cause, "%s%s", jn_status_name(f->outcome), reason);
+	JnPassComplaint complaint;
+	jn_passes_explain(&f->sim->passes, &complaint);
+	if (complaint.cause[0] == '\0' || f->outcome == JN_OK || f->step == NULL) return false;
+	snprintf(f->cause, sizeof f->cause, "%s %s", jn_status_name(f->outcome), complaint.cause);
+	if (complaint.node >= 0) name_place(f->sim, 3 * complaint.node, sizeof f->place, f->place);
+	const size_t size = sizeof f->remedy;
+	size_t used = 0;
+	if (complaint.remedy[0] != '\0') used += (size_t)snprintf(f->remedy, size, "%s, ", complaint.remedy);
+	if (complaint.share > 0)
+		used +=
+			(size_t)snprintf(f->remedy + used, size - used, "steps of about %.2g s, ", complaint.share * f->step->dt);
+	snprintf(f->remedy + used, size - used, "%s", f->complaint.remedy);
 	return true;
 }
 
@@ -135,6 +143,8 @@ bool jn_sim_find_instability(JnSim* sim, double dt, JnFailure* f) {
 	const JnIntegratorType* other = stable_method(method, &found);
 	double nu;
 	if (jn_integrator_stability_limit(other, fmax(found.xi, 0), &nu) != JN_OK) return true;
+	if (!(nu > 0)) snprintf(f->remedy, sizeof f->remedy, "an implicit method such as integrator.method: sdirk2");
+	if (!(nu > 0)) return true;
 	snprintf(f->remedy, sizeof f->remedy,
 			 "%s%s%sstep.dt = %.2g s, step.controller: stable, which follows that limit, or an implicit method such as "
 			 "integrator.method: sdirk2",
@@ -170,9 +180,22 @@ static bool find_inversion(JnFailure* f) {
 }
 
 static bool find_indefinite(JnFailure* f) {
+	static const double most = 1e14, easy = 1e12; // (omega dt)^2, of the 16 digits of a number
+	JnStability found;
 	if (f->outcome != JN_INDEFINITE) return false;
-	snprintf(f->cause, sizeof f->cause, "%s: M + dt D + dt^2 K of the step is not positive definite",
-			 jn_status_name(f->outcome));
+	const int used = snprintf(f->cause, sizeof f->cause, "%s: M + dt D + dt^2 K of the step is not positive definite",
+							  jn_status_name(f->outcome));
+	if (f->step == NULL || !jn_sim_largest_frequency(f->sim, &found)) return true;
+	const double turns = found.omega * f->step->dt;
+	if (!(turns * turns > most)) return true;
+	snprintf(
+		f->cause + used, sizeof f->cause - (size_t)used,
+		", as its parts are too far apart for numbers of 16 digits: (omega dt)^2 = %.2g, where omega = %.3g 1/s is the "
+		"largest frequency",
+		turns * turns, found.omega);
+	name_place(f->sim, found.entry, sizeof f->place, f->place);
+	snprintf(f->remedy, sizeof f->remedy, "steps of %.2g s, a softer material, %s", sqrt(easy) / found.omega,
+			 f->complaint.remedy);
 	return true;
 }
 

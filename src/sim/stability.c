@@ -50,25 +50,33 @@ static bool exceeds_at_start(JnSim* sim, const JnIntegratorType* method, double 
 	return out->at_start;
 }
 
-// What the system cannot give, such as a tangent, is no error of the run.
-bool jn_sim_is_unstable(JnSim* sim, const JnIntegratorType* method, double dt, JnStability* out) {
+// Is `method` unstable; without one: is the largest frequency known? What the system cannot give, such as a tangent, is no
+// error of the run.
+static bool look(JnSim* sim, const JnIntegratorType* method, double dt, JnStability* out) {
 	JnSystem* sys = sim->sys;
 	JnVec vectors[VECTORS];
 	JnReport aside = {0}, *report = sys->report;
-	bool is_complete = true, is_unstable = false;
+	bool is_complete = true, is_so = false;
 	*out = (JnStability){0};
-	if ((method->needs & JN_NEEDS_TANGENT) != 0 || sys->ops->linearize == NULL || sys->ops->matrix == NULL)
-		return false;
+	if (sys->ops->linearize == NULL || sys->ops->matrix == NULL) return false;
 	const JnLog log = jn_log_swap((JnLog){ignore, NULL});
 	sys->report = &aside;
 	for (int i = 0; i < VECTORS; ++i) is_complete &= (vectors[i] = sys->space->ops->create(sys->space)) != NULL;
 	if (is_complete) {
-		is_unstable = exceeds_at_start(sim, method, dt, vectors, out) ||
-					  (measure(sys, &sim->start, vectors, out) && exceeds(method, dt, out));
+		is_so = (method != NULL && exceeds_at_start(sim, method, dt, vectors, out)) ||
+				(measure(sys, &sim->start, vectors, out) && (method == NULL || exceeds(method, dt, out)));
 		sys->ops->begin(sys, &sim->start); // rotations and damping as they were
 	}
 	for (int i = 0; i < VECTORS; ++i) sys->space->ops->destroy(sys->space, vectors[i]);
 	sys->report = report;
 	jn_log_swap(log);
-	return is_unstable;
+	return is_so;
+}
+
+bool jn_sim_is_unstable(JnSim* sim, const JnIntegratorType* method, double dt, JnStability* out) {
+	return (method->needs & JN_NEEDS_TANGENT) == 0 && look(sim, method, dt, out);
+}
+
+bool jn_sim_largest_frequency(JnSim* sim, JnStability* out) {
+	return look(sim, NULL, 0, out);
 }

@@ -19,4 +19,7 @@ typedef struct JnStability {
 /// `out` tells of the first of them where it does. False also where the limit cannot be known. Allocates.
 bool jn_sim_is_unstable(JnSim* sim, const JnIntegratorType* method, double dt, JnStability* out);
 
+/// omega, xi and entry at the last good state, whatever the method. False where they cannot be known. Allocates.
+bool jn_sim_largest_frequency(JnSim* sim, JnStability* out);
+
 #endif

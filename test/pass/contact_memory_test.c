@@ -7,8 +7,9 @@
 #include <malloc.h>
 
 #include "pass/pass_case.h"
+#include "support/sanitized.h"
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !IS_SANITIZED
 	#define COUNTS 1
 
 extern void* __libc_malloc(size_t size);               // NOLINT: what glibc calls them

@@ -67,6 +67,32 @@ static void constant_friction_slows_a_thread_by_the_hold_of_each_site(void** sta
 	}
 }
 
+// What is saved while a thread is sewn in knows its sites: the restored run goes on with the same bits, until both are gone.
+static void a_suture_that_was_saved_goes_on_bit_for_bit(void** state) {
+	(void)state;
+	static const char fixed[] = ", fix: [{where: {face: all}}]", hold[] = ", hold: 2 mN, friction: 0.1";
+	Run saved, restored;
+	JnArchive archive = {0};
+	open_flight(&saved, "symplectic_euler", fixed, hold, 1);
+	open_flight(&restored, "symplectic_euler", fixed, hold, 1);
+	run_until(&saved, 0.02);
+	assert_true(sites_of(&saved) == 2);
+	assert_int_equal(jn_sim_save(saved.sim, &archive), JN_OK);
+	JnArchive reader = jn_archive_reader(archive.bytes, archive.size);
+	assert_int_equal(jn_sim_restore(restored.sim, &reader), JN_OK);
+	jn_archive_free(&archive);
+	assert_true(sites_of(&restored) == 2);
+	for (double t = 0.02; t < 0.14; t += 0.02) {
+		run_until(&saved, t);
+		run_until(&restored, t);
+		assert_memory_equal(run_state(&saved)->x, run_state(&restored)->x, (size_t)saved.length * sizeof(double));
+		assert_memory_equal(run_state(&saved)->v, run_state(&restored)->v, (size_t)saved.length * sizeof(double));
+		assert_true(sites_of(&saved) == sites_of(&restored) && drawn_of(&saved) == drawn_of(&restored));
+	}
+	run_close(&saved);
+	run_close(&restored);
+}
+
 // Let a force act on the whole thread, in the direction in which it flies.
 static double* push(Run* run, double force) {
 	double* load = calloc((size_t)run->length, sizeof *load);
@@ -208,6 +234,7 @@ static void a_thread_drawn_out_of_two_sites_at_once_is_outside(void** state) {
 
 int main(void) {
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(a_suture_that_was_saved_goes_on_bit_for_bit),
 		cmocka_unit_test(a_thread_that_flies_through_makes_and_leaves_two_sites),
 		cmocka_unit_test(constant_friction_slows_a_thread_by_the_hold_of_each_site),
 		cmocka_unit_test(a_pull_below_the_hold_of_its_sites_does_not_move_a_thread),

@@ -174,6 +174,19 @@ static void a_method_that_no_step_makes_stable_is_named(void** state) {
 	expect_success(SIMULATE(block, "integrator.method=verlet", "bodies[0].mass=lumped", dt), 0.2);
 }
 
+// omega is some 100 1/s, so that the damping ratio is in the hundreds: stability ends near omega dt = 1 / ratio.
+static void a_step_too_large_for_strong_damping_names_one_that_works(void** state) {
+	(void)state;
+	static const char thick[] = "bodies[0].damping={beta: 10 s}", method[] = "integrator.method=symplectic_euler";
+	char dt[64];
+	expect_failure(SIMULATE(block, method, "bodies[0].mass=lumped", thick));
+	log_expect("are above the limit of stability of symplectic_euler");
+	const double found = number_after("Try step.dt = ");
+	assert_true(found > 0);
+	snprintf(dt, sizeof dt, "step.dt=%g s", found);
+	expect_success(SIMULATE(block, method, "bodies[0].mass=lumped", thick, dt, "duration=10ms"), 0.01);
+}
+
 static int spring(void* user, double t, const double* x, const double* v, double* f) {
 	(void)t, (void)v;
 	f[0] = -*(const double*)user * x[0];
@@ -261,6 +274,106 @@ static void a_refused_error_names_its_tolerance_and_its_node(void** state) {
 	expect_success(SIMULATE(block, "step={controller: force_error, dt_min: 1 us, tolerance: 1e-6 m, dt: 10 ms}"), 0.2);
 }
 
+// ---- contact and collision
+
+// A block is thrown onto another, across its edge.
+static const char thrown[] =
+	"duration: 0.1 s\ngravity: [0, -9.81, 0]\nintegrator: {method: sdirk2}\n"
+	"step: {controller: fixed, dt: 0.1 s, cuts: 0}\nrecord: {plots: no}\ncontact: {friction: 0.3}\nbodies:\n"
+	"  - name: above\n    shape: {type: box, size: [1, 1, 1], cells: [2, 2, 2]}\n"
+	"    material: {law: stable_neo_hookean, density: 1000, young: 1e4, poisson: 0.3}\n"
+	"    velocity: [0, -20, 0]\n    spin: [0, 0, 50]\n"
+	"  - name: below\n    shape: {type: box, size: [1, 1, 1], cells: [2, 2, 2], origin: [0.3, -1.05, 0.2]}\n"
+	"    material: {law: stable_neo_hookean, density: 1000, young: 1e4, poisson: 0.3}\n";
+
+static void a_contact_that_would_pass_through_names_bodies_depth_and_margin(void** state) {
+	(void)state;
+	char step[64];
+	expect_failure(SIMULATE(thrown, "duration=0.1s"));
+	log_expect("not converged in contact of '");
+	log_expect("more than the margin of ");
+	// a twentieth of the mean edge of the surface: edges of 0.5 m and, across squares, 0.707 m
+	const double depth = number_after("which it would enter by "), margin = number_after("more than the margin of ");
+	assert_true(depth > margin && margin > 0.5 / 20 && margin < 0.707 / 20);
+	snprintf(step, sizeof step, "step={dt: %g s, cuts: 0}", number_after("Try steps of about "));
+	expect_success(SIMULATE(thrown, step), 0.1);
+	expect_success(SIMULATE(thrown, "step={dt: 0.1 s, cuts: 10}"), 0.1);
+}
+
+// The splitting needs some hundred iterations.
+static void impulses_that_are_not_found_name_residual_and_tolerance(void** state) {
+	(void)state;
+	static const char few[] = "contact.solver={method: admm, max_iterations: 3}";
+	expect_failure(SIMULATE(thrown, "step={dt: 2 ms, cuts: 0}", few));
+	log_expect("not converged in contact of '");
+	assert_true(number_after("where a relative residual of ") > number_after("above contact.solver.tolerance, "));
+	assert_true(number_after("above contact.solver.tolerance, ") == 1e-7);
+	log_expect("Try contact.solver: {method: auto, max_iterations: 2000, tolerance: 1e-07}, a smaller step.dt");
+	expect_success(SIMULATE(thrown, "step={dt: 2 ms, cuts: 0}",
+							"contact.solver={method: auto, max_iterations: 2000, tolerance: 1e-07}"),
+				   0.1);
+}
+
+// A stack of threads, a diameter apart, which all begin to fall onto the lowest, the upper ones faster.
+#define FALLING(name, height, speed)                                                                                   \
+	"  - name: " name "\n    shape: {type: thread, points: [{at: [0, " height " mm, 0]}, {at: [0.1, " height           \
+	" mm, 0]}], radius: 2 mm, links: 10}\n"                                                                            \
+	"    material: {law: rod, density: 1000, young: 2e5, damping: 0.02 ms}\n    mass: lumped\n"                        \
+	"    velocity: [0, -" speed ", 0]\n"
+
+static const char heap[] =
+	"duration: 5 ms\ngravity: [0, -9.81, 0]\nintegrator: {method: symplectic_euler}\n"
+	"step: {controller: fixed, dt: 0.5 ms, cuts: 0}\nrecord: {plots: no}\ncollision: {iterations: 1}\n"
+	"obstacles: [{name: floor, shape: plane}]\nbodies:\n" FALLING("first", "2.01", "0") FALLING("second", "6.01", "5")
+		FALLING("third", "10.01", "10");
+
+static void sweeps_that_leave_an_overlap_name_it_and_the_radius(void** state) {
+	(void)state;
+	char step[64], sweeps[64];
+	expect_failure(SIMULATE(heap, "duration=5ms"));
+	log_expect("not converged in collision, where sweeps leave ");
+	log_expect("more than 0.5 radii, 0.001 m");
+	assert_true(number_after("where sweeps leave ") > 1e-3);
+	snprintf(sweeps, sizeof sweeps, "collision.iterations=%g", number_after("Try collision.iterations: "));
+	snprintf(step, sizeof step, "step={dt: %g s, cuts: 0}", number_after("steps of about "));
+	expect_success(SIMULATE(heap, sweeps, step), 5e-3);
+}
+
+static void a_thread_that_flies_off_names_how_far_and_its_length(void** state) {
+	(void)state;
+	char step[64];
+	static const char fast[] = "bodies[2].velocity=[0, 1e5, 0]"; // 50 m in 0.5 ms
+	expect_failure(SIMULATE(heap, fast));
+	log_expect(
+		"where something moves by 50 m within the step, more than 100 times the length of the shortest thread, 0.1 m");
+	snprintf(step, sizeof step, "step={dt: %g s, cuts: 0}", number_after("Try steps of about "));
+	expect_success(SIMULATE(heap, fast, step, "duration=1e-5s", "collision.iterations=100"), 1e-5);
+}
+
+// ---- matrices
+
+// A free block as hard as nothing is: what holds it together is 1e16 times what moves it, beyond the digits of numbers.
+static void an_indefinite_matrix_names_the_frequency_and_the_step(void** state) {
+	(void)state;
+	char step[64];
+	static const char free_block[] =
+		"duration: 1 s\ngravity: [0, 0, -9.81]\nintegrator: {method: linearized_euler}\n"
+		"step: {controller: fixed, dt: 1 s, cuts: 0}\nrecord: {plots: no}\nbodies:\n"
+		"  - name: block\n    shape: {type: box, size: [1, 1, 1], cells: [2, 2, 2]}\n"
+		"    material: {law: stable_neo_hookean, density: 1000, young: 1e18, poisson: 0.3}\n";
+	expect_failure(SIMULATE(free_block, "duration=1s"));
+	log_expect("indefinite matrix: M + dt D + dt^2 K of the step is not positive definite");
+	log_expect("of 'block' at (");
+	const double omega = number_after("where omega = "), square = number_after("(omega dt)^2 = ");
+	assert_true(fabs(square - omega * omega) < 0.06 * square); // dt = 1 s; two digits of the square, three of omega
+	// waves of pressure have c = sqrt(1.346 E / rho) = 3.67e7 m/s: 2 c / h of lumped masses in a row of cells of h = 0.5 m,
+	// sqrt(3) times that of consistent ones, and again in three dimensions
+	assert_true(omega > 1.4e8 && omega < 4.5e8);
+	snprintf(step, sizeof step, "step={dt: %g s, cuts: 0}", number_after("Try steps of "));
+	expect_success(SIMULATE(free_block, step, "duration=0.1s"), 0.1);
+	expect_success(SIMULATE(free_block, "integrator.method=backward_euler"), 1);
+}
+
 // ---- energy
 
 // Newmark's average acceleration keeps no energy of large strains: at this step it gains more than there was.
@@ -339,12 +452,18 @@ int main(void) {
 		cmocka_unit_test(a_stiff_thread_at_a_large_explicit_step_names_step_and_limit),
 		cmocka_unit_test(its_advice_works),
 		cmocka_unit_test(a_method_that_no_step_makes_stable_is_named),
+		cmocka_unit_test(a_step_too_large_for_strong_damping_names_one_that_works),
 		cmocka_unit_test(a_system_of_ones_own_that_blows_up_names_its_limit),
 		cmocka_unit_test(a_motion_that_is_too_fast_is_named_and_a_smaller_step_or_a_slower_one_works),
 		cmocka_unit_test(an_inverted_element_is_named_and_a_law_that_knows_such_works),
 		cmocka_unit_test(a_state_without_finite_energy_ends_the_run_and_reaches_no_file),
 		cmocka_unit_test(a_stage_that_does_not_converge_names_residual_and_node),
 		cmocka_unit_test(a_refused_error_names_its_tolerance_and_its_node),
+		cmocka_unit_test(a_contact_that_would_pass_through_names_bodies_depth_and_margin),
+		cmocka_unit_test(impulses_that_are_not_found_name_residual_and_tolerance),
+		cmocka_unit_test(sweeps_that_leave_an_overlap_name_it_and_the_radius),
+		cmocka_unit_test(a_thread_that_flies_off_names_how_far_and_its_length),
+		cmocka_unit_test(an_indefinite_matrix_names_the_frequency_and_the_step),
 		cmocka_unit_test(a_gain_of_energy_warns_once_and_names_the_body),
 		cmocka_unit_test(the_watch_can_be_turned_off),
 		cmocka_unit_test(work_of_driven_nodes_is_no_gain),

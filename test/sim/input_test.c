@@ -6,8 +6,9 @@
 #include "model/hold.h"
 #include "model/system.h"
 #include "pass/pass_case.h"
+#include "support/sanitized.h"
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !IS_SANITIZED
 	#define COUNTS 1
 extern void* __libc_malloc(size_t size);               // NOLINT: what glibc calls them
 extern void* __libc_calloc(size_t count, size_t size); // NOLINT
