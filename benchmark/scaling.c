@@ -144,7 +144,7 @@ static void measure_iterated(const Bench* bench, Subject* s, const JnPreconditio
 		snprintf(name, sizeof name, "iterations.%s.%s", problem->name, type->name);
 		report_number(bench, s, name, s->iterations, "");
 		snprintf(name, sizeof name, "memory.%s.%s", problem->name, type->name);
-		report_number(bench, s, name, 1e-6 * (double)type->cost(s->precondition).bytes, "MB");
+		report_number(bench, s, name, 1e-6 * (double)type->bytes(s->precondition), "MB");
 	}
 	type->destroy(s->precondition);
 }

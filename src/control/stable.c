@@ -128,7 +128,6 @@ static double best(const JnController* self) {
 static JnStatus judge(JnController* self, JnStep* step, JnStatus outcome, JnVerdict* verdict) {
 	const StableDef* def = self->options;
 	StableMemory* memory = self->memory;
-	if (outcome < JN_OK) return outcome;
 	const JnStatus known = memory->omega == 0 ? measure(self, step->start) : JN_OK;
 	if (known < JN_OK) return known;
 	const double factor = best(self) / step->dt;

@@ -30,19 +30,3 @@ double jn_cell_volume_ratio(const JnMesh* mesh, int cell, const double* x) {
 	}
 	return smallest;
 }
-
-static double distance(const double* x, int i, int j) {
-	const double *a = x + 3 * (ptrdiff_t)i, *b = x + 3 * (ptrdiff_t)j;
-	return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
-}
-
-double jn_element_stretch(const JnGroup* group, int element, const double* rest, const double* x) {
-	double farthest = 1;
-	for (int i = 1; i < group->kernel->nodes; ++i)
-		for (int j = 0; j < i; ++j) {
-			const int a = jn_group_node(group, element, i), b = jn_group_node(group, element, j);
-			const double at_rest = distance(rest, a, b), ratio = distance(x, a, b) / at_rest;
-			if (at_rest > 0 && fabs(log(ratio)) > fabs(log(farthest))) farthest = ratio;
-		}
-	return farthest;
-}

@@ -9,8 +9,4 @@
 /// below 0: inside out. NAN where x is, and for cells that are not solid.
 double jn_cell_volume_ratio(const JnMesh* mesh, int cell, const double* x);
 
-/// The distance of two nodes of an element over that at rest: of the pair for which it is farthest from 1, up or down.
-/// `rest` and `x` are the model's. 1 for elements of a single node.
-double jn_element_stretch(const JnGroup* group, int element, const double* rest, const double* x);
-
 #endif

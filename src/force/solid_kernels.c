@@ -138,7 +138,7 @@ enum {
 #define KERNEL(shape_name, index, law_name, reals, is_convex)                                                          \
 	[index][LAW_##law_name] = {                                                                                        \
 		.law = &jn_law_##law_name,                                                                                     \
-		.shape = index,                                                                                                \
+		.shape = (index),                                                                                              \
 		.width = JN_WIDE,                                                                                              \
 		.nodes = shape_name##_NODES,                                                                                   \
 		.points = shape_name##_POINTS,                                                                                 \

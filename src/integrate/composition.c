@@ -73,9 +73,9 @@ static const JnComposition pefrl = {
 
 #define COMPOSITION(method, p, words)                                                                                  \
 	const JnIntegratorType jn_##method = {                                                                             \
-		.row = {.name = #method, .doc = words},                                                                        \
+		.row = {.name = #method, .doc = (words)},                                                                      \
 		.needs = JN_NEEDS_DIAGONAL_MASS,                                                                               \
-		.order = p,                                                                                                    \
+		.order = (p),                                                                                                  \
 		.vectors = VECTORS,                                                                                            \
 		.table = &(method),                                                                                            \
 		.step = composition_step,                                                                                      \

@@ -33,20 +33,12 @@ static void add_rates(const JnIntegrator* self, JnVec (*rate)(const JnIntegrator
 
 static const JnTerm nothing = {0, NULL};
 
-static JnStatus explicit_stage(JnIntegrator* self, JnStep* step, int i) {
-	const JnTableau* table = self->type->table;
+// The first stage, where it is the start itself: the stamp comes along, so that its forces are known.
+static JnStatus explicit_stage(JnIntegrator* self, JnStep* step) {
 	JnState* s = step->end;
-	if (i == 0) {
-		jn_state_copy(self->space, step->start, s); // the stamp comes along: forces at the start are known
-	} else {
-		add_rates(self, rate_x, step->start->x, step->dt, i, table->a[i], nothing, s->x);
-		add_rates(self, rate_v, step->start->v, step->dt, i, table->a[i], nothing, s->v);
-		s->t = step->start->t + table->c[i] * step->dt;
-		step->sys->ops->prescribe(step->sys, s, NULL);
-		jn_state_touch(self->space, s);
-	}
-	JN_TRY(jn_acceleration(self, step->sys, s, rate_v(self, i)));
-	self->space->ops->combine(self->space, rate_x(self, i), 1, (JnTerm[]){{1, s->v}});
+	jn_state_copy(self->space, step->start, s);
+	JN_TRY(jn_acceleration(self, step->sys, s, rate_v(self, 0)));
+	self->space->ops->combine(self->space, rate_x(self, 0), 1, (JnTerm[]){{1, s->v}});
 	return JN_OK;
 }
 
@@ -91,7 +83,7 @@ static JnStatus dirk_step(JnIntegrator* self, JnStep* step) {
 	step->sys->report = &step->report;
 	self->step_stamp = step->start->stamp;
 	for (int i = 0; i < table->stages; ++i)
-		JN_TRY(table->a[i][i] == 0 ? explicit_stage(self, step, i) : implicit_stage(self, step, i));
+		JN_TRY(i == 0 && table->a[0][0] == 0 ? explicit_stage(self, step) : implicit_stage(self, step, i));
 	if (!ends_on_last_stage(table)) {
 		add_rates(self, rate_x, step->start->x, step->dt, table->stages, table->b, nothing, step->end->x);
 		add_rates(self, rate_v, step->start->v, step->dt, table->stages, table->b, nothing, step->end->v);
@@ -110,11 +102,11 @@ static void dirk_properties(const void* table, JnTableauProperties* out) {
 // force_weight: a_ii^2 of the last implicit stage (math of the force-error controller, w for a method with that stage).
 #define DIRK(method, p, diagonal, is_overshooting, words)                                                              \
 	const JnIntegratorType jn_##method = {                                                                             \
-		.row = {.name = #method, .doc = words},                                                                        \
+		.row = {.name = #method, .doc = (words)},                                                                      \
 		.needs = JN_NEEDS_TANGENT,                                                                                     \
-		.order = p,                                                                                                    \
+		.order = (p),                                                                                                  \
 		.force_weight = (diagonal) * (diagonal),                                                                       \
-		.overshoots = is_overshooting,                                                                                 \
+		.overshoots = (is_overshooting),                                                                               \
 		.vectors = VECTORS,                                                                                            \
 		.table = &jn_tableau_##method,                                                                                 \
 		.properties = dirk_properties,                                                                                 \

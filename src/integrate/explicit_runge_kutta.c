@@ -74,9 +74,9 @@ static const JnNystrom rk4 = {
 
 #define EXPLICIT(method, p, words)                                                                                     \
 	const JnIntegratorType jn_##method = {                                                                             \
-		.row = {.name = #method, .doc = words},                                                                        \
+		.row = {.name = #method, .doc = (words)},                                                                      \
 		.needs = JN_NEEDS_DIAGONAL_MASS,                                                                               \
-		.order = p,                                                                                                    \
+		.order = (p),                                                                                                  \
 		.vectors = VECTORS,                                                                                            \
 		.table = &(method),                                                                                            \
 		.step = nystrom_step,                                                                                          \

@@ -148,7 +148,7 @@ static JnStatus narrow(const JnIntegratorType* type, double nu, double xi, doubl
 
 JnStatus jn_integrator_stability_limit(const JnIntegratorType* type, double xi, double* limit) {
 	double low = 0, high = 0;
-	const double first = xi > 0 ? fmin(1e-2, 0.1 * xi) : 1e-2;
+	const double first = xi > 0 ? fmin(1e-2, 0.1 * fmin(xi, 1 / xi)) : 1e-2; // overdamped ones end near 1 / xi
 	for (double nu = first; nu < 1e3 && high == 0; nu *= 1.1) JN_TRY(narrow(type, nu, xi, &low, &high));
 	for (int i = 0; i < 40 && low > 0 && high > 0; ++i) JN_TRY(narrow(type, 0.5 * (low + high), xi, &low, &high));
 	*limit = high == 0 ? INFINITY : low;

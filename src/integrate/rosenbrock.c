@@ -23,8 +23,6 @@ enum { FORCE, FORCE_RATE, W, RIGHT, PRODUCT, INCREMENTS };
 /// 1e-13 f / h.
 static const double probe = 1e-3;
 
-static const JnTerm nothing = {0, NULL};
-
 static JnVec increment_x(const JnIntegrator* self, int i) {
 	return self->vectors[INCREMENTS + 2 * i];
 }
@@ -33,14 +31,13 @@ static JnVec increment_v(const JnIntegrator* self, int i) {
 	return self->vectors[INCREMENTS + 2 * i + 1];
 }
 
-// out = base + scale * sum_{j < count} weight_j increment_j + also
+// out = base + scale * sum_{j < count} weight_j increment_j
 static void add_increments(const JnIntegrator* self, JnVec (*increment)(const JnIntegrator*, int), const double* base,
-						   double scale, int count, const double weight[], JnTerm also, JnVec out) {
-	JnTerm terms[JN_MAX_STAGES + 2] = {{1, base}};
+						   double scale, int count, const double weight[], JnVec out) {
+	JnTerm terms[JN_MAX_STAGES + 1] = {{1, base}};
 	int n = 1;
 	for (int j = 0; j < count; ++j)
 		if (weight[j] != 0) terms[n++] = (JnTerm){scale * weight[j], increment(self, j)};
-	if (also.scale != 0) terms[n++] = also;
 	self->space->ops->combine(self->space, out, n, terms);
 }
 
@@ -102,8 +99,8 @@ static JnStatus evaluate(JnIntegrator* self, JnStep* step, int i) {
 		JN_TRY(free_force(self, step->sys, s, self->vectors[FORCE]));
 		return step->sys->depends_on_time ? find_force_rate(self, step) : JN_OK;
 	}
-	add_increments(self, increment_x, step->start->x, 1, i, table->a[i], nothing, s->x);
-	add_increments(self, increment_v, step->start->v, 1, i, table->a[i], nothing, s->v);
+	add_increments(self, increment_x, step->start->x, 1, i, table->a[i], s->x);
+	add_increments(self, increment_v, step->start->v, 1, i, table->a[i], s->v);
 	s->t = step->start->t + table->alpha[i] * step->dt;
 	step->sys->ops->prescribe(step->sys, s, NULL);
 	jn_state_touch(self->space, s);
@@ -114,8 +111,8 @@ static JnStatus evaluate(JnIntegrator* self, JnStep* step, int i) {
 static void find_w(JnIntegrator* self, const JnStep* step, int i) {
 	const JnRosenbrock* table = self->type->table;
 	JnVec w = self->vectors[W];
-	add_increments(self, increment_v, step->start->v, 1, i, table->a[i], nothing, w);
-	add_increments(self, increment_x, w, 1 / step->dt, i, table->c[i], nothing, w);
+	add_increments(self, increment_v, step->start->v, 1, i, table->a[i], w);
+	add_increments(self, increment_x, w, 1 / step->dt, i, table->c[i], w);
 	step->sys->ops->hold(step->sys, w);
 }
 
@@ -130,7 +127,7 @@ static JnStatus assemble(JnIntegrator* self, JnStep* step, int i) {
 	const JnTerm forces[] = {{gh, self->vectors[FORCE]}, {gh * rate, self->vectors[FORCE_RATE]}};
 	self->space->ops->combine(self->space, right, rate != 0 ? 2 : 1, forces);
 	JN_TRY(add_product(self, sys, (JnShift){.damping = 1}, w, gh, right));
-	add_increments(self, increment_v, w, table->gamma, i, table->c[i], nothing, momentum);
+	add_increments(self, increment_v, w, table->gamma, i, table->c[i], momentum);
 	JN_TRY(add_product(self, sys, (JnShift){.mass = 1}, momentum, 1, right));
 	sys->ops->hold(sys, right);
 	return JN_OK;
@@ -167,8 +164,8 @@ static JnStatus rosenbrock_step(JnIntegrator* self, JnStep* step) {
 		JN_TRY(evaluate(self, step, i));
 		JN_TRY(solve_stage(self, step, i));
 	}
-	add_increments(self, increment_x, step->start->x, 1, table->stages, table->m, nothing, step->end->x);
-	add_increments(self, increment_v, step->start->v, 1, table->stages, table->m, nothing, step->end->v);
+	add_increments(self, increment_x, step->start->x, 1, table->stages, table->m, step->end->x);
+	add_increments(self, increment_v, step->start->v, 1, table->stages, table->m, step->end->v);
 	step->end->t = step->start->t + step->dt;
 	step->sys->ops->prescribe(step->sys, step->end, NULL);
 	jn_state_touch(self->space, step->end);
@@ -183,11 +180,11 @@ static void rosenbrock_properties(const void* table, JnTableauProperties* out) {
 // force_weight: gamma^2, as for a method whose last stage has the diagonal gamma.
 #define ROSENBROCK(method, p, stage_count, diagonal, is_overshooting, words)                                           \
 	const JnIntegratorType jn_##method = {                                                                             \
-		.row = {.name = #method, .doc = words},                                                                        \
+		.row = {.name = #method, .doc = (words)},                                                                      \
 		.needs = JN_NEEDS_TANGENT,                                                                                     \
-		.order = p,                                                                                                    \
+		.order = (p),                                                                                                  \
 		.force_weight = (diagonal) * (diagonal),                                                                       \
-		.overshoots = is_overshooting,                                                                                 \
+		.overshoots = (is_overshooting),                                                                               \
 		.keeps_tangent = true,                                                                                         \
 		.vectors = INCREMENTS + 2 * (stage_count),                                                                     \
 		.table = &jn_rosenbrock_##method,                                                                              \

@@ -80,7 +80,7 @@ static int* put_six(int* out, const int* q) {
 static int* put_face(const JnMesh* mesh, int place, int* out) {
 	const JnShapeInfo* info = &jn_shape_info[mesh->shape];
 	const int* nodes = mesh->cells + (ptrdiff_t)(place / info->faces) * info->nodes;
-	int q[6];
+	int q[6] = {0};
 	for (int i = 0; i < info->face_nodes; ++i) q[i] = nodes[local_face(info, place % info->faces)[i]];
 	if (mesh->shape == JN_HEX8) return put_quad(out, q);
 	return mesh->shape == JN_TET10 ? put_six(out, q) : put(out, q[0], q[1], q[2]);

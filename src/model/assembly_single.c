@@ -1,8 +1,8 @@
 #include "model/assembly_single.h"
 
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/aligned.h"
 #include "model/assembly_parts.h"
 #include "model/mass_single.h"
 
@@ -36,15 +36,14 @@ static bool make_room(const JnAssembly* assembly, JnStored* stored) {
 	for (int g = 0; g < assembly->model->group_count; ++g)
 		if (takes(stored, g)) count += floats_of(&assembly->model->groups[g], stored->definite);
 	if (count <= stored->capacity) return true;
-	const size_t bytes = (count * sizeof(float) + 63) / 64 * 64;
 	jn_stored_free(stored);
-	stored->numbers = aligned_alloc(64, bytes);
+	stored->numbers = jn_aligned_take(count * sizeof(float));
 	stored->capacity = stored->numbers != NULL ? count : 0;
 	return stored->numbers != NULL;
 }
 
 void jn_stored_free(JnStored* stored) {
-	free(stored->numbers);
+	jn_aligned_free(stored->numbers);
 	stored->numbers = NULL;
 	stored->capacity = 0;
 }

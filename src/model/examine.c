@@ -1,5 +1,6 @@
 #include "model/examine.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -7,7 +8,7 @@
 
 enum { LANES = 8 }; // the widest kernel's
 
-static const JnSpot nowhere = {.body = -1, .node = -1, .element = -1, .group = -1, .value = NAN};
+static const JnSpot nowhere = {.body = -1, .node = -1, .cell = -1, .value = NAN};
 
 static int body_of_node(const JnModel* model, int node) {
 	int body = model->body_count - 1;
@@ -15,14 +16,8 @@ static int body_of_node(const JnModel* model, int node) {
 	return body;
 }
 
-static int body_of_group(const JnModel* model, int group) {
-	int body = model->body_count - 1;
-	while (body > 0 && model->bodies[body].first_group > group) --body;
-	return body;
-}
-
 JnSpot jn_model_node(const JnModel* model, int node) {
-	return (JnSpot){.body = body_of_node(model, node), .node = node, .element = -1, .group = -1, .value = NAN};
+	return (JnSpot){.body = body_of_node(model, node), .node = node, .cell = -1, .value = NAN};
 }
 
 JnSpot jn_model_most_squeezed(const JnModel* model, const double* x) {
@@ -34,30 +29,7 @@ JnSpot jn_model_most_squeezed(const JnModel* model, const double* x) {
 			const double ratio = jn_cell_volume_ratio(&body->mesh, cell, x + 3 * (ptrdiff_t)body->first_node);
 			if (!isfinite(ratio) || ratio >= worst.value) continue;
 			const int nodes = jn_shape_info[body->mesh.shape].nodes;
-			worst = (JnSpot){.body = b,
-							 .node = body->cells[(ptrdiff_t)cell * nodes],
-							 .element = cell,
-							 .is_cell = true,
-							 .group = -1,
-							 .value = ratio};
-		}
-	}
-	return worst;
-}
-
-JnSpot jn_model_most_stretched(const JnModel* model, const double* x) {
-	JnSpot worst = nowhere;
-	worst.value = 1;
-	for (int g = 0; g < model->group_count; ++g) {
-		const JnGroup* group = &model->groups[g];
-		for (int e = 0; e < group->count && group->kernel->damage == NULL; ++e) {
-			const double stretch = jn_element_stretch(group, e, model->rest, x);
-			if (!isfinite(stretch) || fabs(log(stretch)) <= fabs(log(worst.value))) continue;
-			worst = (JnSpot){.body = body_of_group(model, g),
-							 .node = jn_group_node(group, e, 0),
-							 .element = e,
-							 .group = g,
-							 .value = stretch};
+			worst = (JnSpot){.body = b, .node = body->cells[(ptrdiff_t)cell * nodes], .cell = cell, .value = ratio};
 		}
 	}
 	return worst;
@@ -104,35 +76,14 @@ double jn_model_body_energy(const JnModel* model, int index, const JnState* stat
 	return sum;
 }
 
-// The nodes of a place: at most `room` of them.
-static int nodes_of(const JnModel* model, const JnSpot* spot, int room, int* nodes) {
-	int count = 0;
-	if (spot->element < 0) {
-		nodes[count++] = spot->node;
-		return count;
-	}
-	const JnBody* body = &model->bodies[spot->body];
-	const int all = spot->is_cell ? jn_shape_info[body->mesh.shape].nodes : model->groups[spot->group].kernel->nodes;
-	for (; count < all && count < room; ++count)
-		nodes[count] = spot->is_cell ? body->cells[(ptrdiff_t)spot->element * all + count]
-									 : jn_group_node(&model->groups[spot->group], spot->element, count);
-	return count;
-}
-
 void jn_spot_name(const JnModel* model, const JnSpot* spot, const double* x, size_t size, char* text) {
-	enum { MOST_NODES = 16 };
-	int nodes[MOST_NODES];
-	char what[64];
+	const JnBody* body = &model->bodies[spot->body];
+	const bool is_cell = spot->cell >= 0;
+	const int count = is_cell ? jn_shape_info[body->mesh.shape].nodes : 1;
+	const int* nodes = is_cell ? body->cells + (ptrdiff_t)spot->cell * count : &spot->node;
 	double at[3] = {0};
-	const int count = nodes_of(model, spot, MOST_NODES, nodes);
 	for (int i = 0; i < count; ++i)
 		for (int axis = 0; axis < 3; ++axis) at[axis] += x[3 * (ptrdiff_t)nodes[i] + axis] / count;
-	if (spot->element < 0)
-		snprintf(what, sizeof what, "node %d", spot->node);
-	else if (spot->is_cell)
-		snprintf(what, sizeof what, "cell %d", spot->element);
-	else
-		snprintf(what, sizeof what, "the element of nodes %d and %d", nodes[0], nodes[count > 1]);
-	snprintf(text, size, "%s of '%.60s' at (%.4g, %.4g, %.4g) m", what, model->bodies[spot->body].name, at[0], at[1],
-			 at[2]);
+	snprintf(text, size, "%s %d of '%.60s' at (%.4g, %.4g, %.4g) m", is_cell ? "cell" : "node",
+			 is_cell ? spot->cell : spot->node, body->name, at[0], at[1], at[2]);
 }

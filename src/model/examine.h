@@ -5,23 +5,17 @@
 
 #include "model/model.h"
 
-/// A node or an element of a body.
+/// A node or a cell of a body.
 typedef struct JnSpot {
 	int body;     ///< -1: nowhere
-	int node;     ///< number in the model; of an element: its first
-	int element;  ///< number in the body's cells (`is_cell`) or in a group; -1: only the node is meant
-	bool is_cell; ///< a cell of the mesh, as recordings number them
-	int group;    ///< of the model; -1 with cells
+	int node;     ///< number in the model; of a cell: its first
+	int cell;     ///< of the body's mesh, as recordings number them; -1: only the node is meant
 	double value; ///< of the quantity asked for
 } JnSpot;
 
 /// The solid cell whose volume ratio det dx/dX is smallest at x, which is below 0 where it is inside out. body -1: there are
 /// no solids, or x is not finite.
 JnSpot jn_model_most_squeezed(const JnModel* model, const double* x);
-
-/// The element in which a distance of two nodes has changed by the largest factor, up or down; `value` is that factor.
-/// Elements that can break are not looked at.
-JnSpot jn_model_most_stretched(const JnModel* model, const double* x);
 
 /// A node.
 JnSpot jn_model_node(const JnModel* model, int node);

@@ -28,7 +28,7 @@ static const JnKey fix_keys[] = {
 
 #define MOTION(axis, index)                                                                                            \
 	{                                                                                                                  \
-		.name = axis, .kind = JN_VARIANT, .field = offsetof(JnDriveDef, motion) + (index) * sizeof(JnVariant),         \
+		.name = (axis), .kind = JN_VARIANT, .field = offsetof(JnDriveDef, motion) + (index) * sizeof(JnVariant),       \
 		.rows = &jn_motion_list, .tag = "type", .meaning = "displacement along " axis                                  \
 	}
 

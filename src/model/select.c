@@ -1,5 +1,6 @@
 #include "model/select.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -53,6 +54,7 @@ static bool is_chosen(const JnSelectDef* def, const Bounds* bounds, const double
 	}
 	if (def->box != NULL) return is_inside(def->box->min, def->box->max, bounds->slack, p);
 	if (def->plane != NULL) return is_at_plane(def->plane, bounds->size, p);
+	assert(def->sphere != NULL); // jn_select_check: one of them is given
 	const double* c = def->sphere->center;
 	return length_of((double[3]){p[0] - c[0], p[1] - c[1], p[2] - c[2]}) <= def->sphere->radius + bounds->slack;
 }

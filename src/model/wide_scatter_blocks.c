@@ -2,6 +2,8 @@
 // a time. Exports jn_scatter_blocks_<width> and jn_scatter_triangles_<width>.
 #include "model/scatter.h"
 
+#include <assert.h>
+
 #include "math/wide.h"
 
 #define JOIN_NAMES(a, b) a##b
@@ -13,9 +15,13 @@ INLINE int lanes_in(const JnGroup* group, int batch) {
 	return rest < JN_WIDE ? rest : JN_WIDE;
 }
 
-enum { MOST_PAIRS = 55, LANES = JN_WIDE < 4 ? JN_WIDE : 4 };
+enum { MOST_PAIRS = 55 };
 
-#if JN_WIDE >= 4
+#if JN_WIDE < 4
+enum { LANES = JN_WIDE };
+#else
+enum { LANES = 4 };
+
 typedef double Four __attribute__((vector_size(32)));
 typedef double FourInMemory __attribute__((vector_size(32), aligned(8), may_alias));
 
@@ -99,6 +105,7 @@ void JOIN(jn_scatter_blocks_, JN_WIDE)(const JnGroup* group, int first, int last
 									   const double* buffer, double weight, JnNodeRange range, double* blocks) {
 	const int node_count = group->kernel->nodes, pairs = node_count * (node_count + 1) / 2;
 	double rows[LANES][9 * MOST_PAIRS];
+	assert(pairs > 0 && pairs <= MOST_PAIRS);
 	for (int batch = first; batch < last; ++batch, buffer += 9 * pairs * JN_WIDE, place += pairs * JN_WIDE) {
 		const int* nodes = group->nodes + (ptrdiff_t)batch * node_count * JN_WIDE;
 		const int lanes = lanes_in(group, batch);

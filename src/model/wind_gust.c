@@ -12,24 +12,24 @@ static double dot(const double a[3], const double b[3]) {
 
 // A random direction; short vectors are drawn again, as their own would be rounded.
 static void draw_direction(JnRandom* random, double out[3]) {
-	double square = 0;
-	while (square < 0.01) {
+	double square;
+	do {
 		jn_random_in_ball(random, out);
 		square = dot(out, out);
-	}
+	} while (square < 0.01);
 	const double length = sqrt(square);
 	for (int a = 0; a < 3; ++a) out[a] /= length;
 }
 
 // A random direction perpendicular to `to`.
 static void draw_perpendicular(JnRandom* random, const double to[3], double out[3]) {
-	double square = 0;
-	while (square < 0.01) {
+	double square;
+	do {
 		draw_direction(random, out);
 		const double along = dot(out, to);
 		for (int a = 0; a < 3; ++a) out[a] -= along * to[a];
 		square = dot(out, out);
-	}
+	} while (square < 0.01);
 	const double length = sqrt(square);
 	for (int a = 0; a < 3; ++a) out[a] /= length;
 }

@@ -26,6 +26,7 @@ typedef struct JnH5Page {
 
 /// A file as its driver knows it. All zero before it is opened; the address must not change until it is closed.
 typedef struct JnH5Disk {
+	bool is_rehearsal;  ///< set before it is opened: nothing reaches the disk
 	int error;          ///< errno of the first failure to reach the disk, or 0
 	int file, journal;  ///< -1: not open
 	char* journal_path; ///< owned

@@ -35,7 +35,7 @@ static JnStatus judge(JnH5File* file, bool is_good, const char* what) {
 	return is_good && file->disk.error == 0 ? JN_OK : fail(file, what);
 }
 
-typedef enum Opening { CREATE, GO_ON } Opening;
+typedef enum Opening { CREATE, GO_ON, REHEARSE } Opening;
 
 // HDF5 would keep 32 MiB of headers of frames, which nobody reads again.
 static bool limit_metadata(hid_t access) {
@@ -54,6 +54,7 @@ static JnStatus open_file(JnH5File* file, const char* directory, const char* nam
 	H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 	file->link_list = H5Pcreate(H5P_LINK_CREATE);
 	const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+	file->disk.is_rehearsal = opening == REHEARSE;
 	file->driver = jn_h5_driver_choose(access, &file->disk);
 	const bool is_ready = file->driver >= 0 && file->link_list >= 0 && access >= 0 &&
 						  H5Pset_create_intermediate_group(file->link_list, 1) >= 0 &&
@@ -62,7 +63,7 @@ static JnStatus open_file(JnH5File* file, const char* directory, const char* nam
 						  H5Pset_cache(access, 0, CACHE_SLOTS, CACHE_CHUNKS * CHUNK_LENGTH * sizeof(double), 1) >= 0 &&
 						  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0;
 	if (is_ready && opening == CREATE) file->id = H5Fcreate(file->path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
-	if (is_ready && opening == GO_ON) file->id = H5Fopen(file->path, H5F_ACC_RDWR, access);
+	if (is_ready && opening != CREATE) file->id = H5Fopen(file->path, H5F_ACC_RDWR, access);
 	const JnStatus status = judge(file, file->id >= 0, "the file");
 	H5Pclose(access);
 	if (status != JN_OK) jn_h5_close(file);
@@ -77,8 +78,14 @@ JnStatus jn_h5_open(JnH5File* file, const char* directory, const char* name) {
 	return open_file(file, directory, name, GO_ON);
 }
 
-bool jn_h5_has(JnH5File* file, const char* name) {
-	return H5Lexists(file->id, name, H5P_DEFAULT) > 0;
+JnStatus jn_h5_open_rehearsal(JnH5File* file, const char* directory, const char* name) {
+	return open_file(file, directory, name, REHEARSE);
+}
+
+JnStatus jn_h5_find(JnH5File* file, const char* name, bool* is_found) {
+	*is_found =
+		H5Lexists(file->id, name, H5P_DEFAULT) > 0; // below 0 where the group that should have it is not there either
+	return judge(file, true, name);
 }
 
 JnStatus jn_h5_remove(JnH5File* file, const char* name) {
@@ -121,10 +128,6 @@ JnStatus jn_h5_text(JnH5File* file, const char* name, const char* text) {
 	const JnStatus status = judge(file, space >= 0 && write_dataset(file, name, type, type, space, &text), name);
 	H5Tclose(type);
 	return status;
-}
-
-JnStatus jn_h5_link(JnH5File* file, const char* target, const char* name) {
-	return judge(file, H5Lcreate_hard(file->id, target, file->id, name, file->link_list, H5P_DEFAULT) >= 0, name);
 }
 
 // The object stays open meanwhile: HDF5 1.10 cannot rewrite what H5Aopen_by_name opened.
@@ -178,13 +181,17 @@ JnStatus jn_h5_extendible(JnH5File* file, const char* name, hid_t file_type, hid
 }
 
 JnStatus jn_h5_reopen(JnH5File* file, const char* name, hsize_t length, hid_t* dataset) {
-	hsize_t found = 0;
+	hsize_t found[H5S_MAX_RANK];
 	*dataset = H5Dopen2(file->id, name, H5P_DEFAULT);
 	const hid_t space = *dataset >= 0 ? H5Dget_space(*dataset) : H5I_INVALID_HID;
-	const bool is_list = space >= 0 && H5Sget_simple_extent_ndims(space) == 1 &&
-						 H5Sget_simple_extent_dims(space, &found, NULL) >= 0 && found >= length;
+	const int rank = space >= 0 ? H5Sget_simple_extent_dims(space, found, NULL) : -1;
 	if (space >= 0) H5Sclose(space);
-	return judge(file, is_list && H5Dset_extent(*dataset, &length) >= 0, name);
+	JN_TRY(judge(file, rank >= 0, name));
+	if (rank != 1 || found[0] < length)
+		return jn_error(JN_BAD_INPUT,
+						"%s: %s has fewer than the %llu rows that the checkpoint tells of; it is that of another run",
+						file->path, name, (unsigned long long)length);
+	return judge(file, H5Dset_extent(*dataset, &length) >= 0, name);
 }
 
 JnStatus jn_h5_append(JnH5File* file, hid_t dataset, hid_t memory_type, hsize_t length, hsize_t count,

@@ -26,13 +26,17 @@ JnStatus jn_h5_create(JnH5File* file, const char* directory, const char* name);
 /// Open "directory/name" to go on writing, at its last flush, whatever became of its writer.
 JnStatus jn_h5_open(JnH5File* file, const char* directory, const char* name);
 
+/// The same, but nothing of what is written reaches the disk: to see whether the file holds what it should before it is changed. A
+/// journal of a run that was killed is looked for by jn_h5_open alone.
+JnStatus jn_h5_open_rehearsal(JnH5File* file, const char* directory, const char* name);
+
 /// Is there an object of that name?
-bool jn_h5_has(JnH5File* file, const char* name);
+JnStatus jn_h5_find(JnH5File* file, const char* name, bool* is_found);
 
 /// Remove a group with all that is in it.
 JnStatus jn_h5_remove(JnH5File* file, const char* name);
 
-/// Open a 1-D dataset that grows, to be cut to `length`, which it must have at least.
+/// Open a 1-D dataset that grows, to be cut to `length`. JN_BAD_INPUT when it is none, or shorter.
 JnStatus jn_h5_reopen(JnH5File* file, const char* name, hsize_t length, hid_t* dataset);
 
 /// A group that may stay empty.
@@ -44,9 +48,6 @@ JnStatus jn_h5_array(JnH5File* file, const char* name, hid_t file_type, hid_t me
 
 /// A scalar dataset with a UTF-8 text.
 JnStatus jn_h5_text(JnH5File* file, const char* name, const char* text);
-
-/// A second name for a dataset.
-JnStatus jn_h5_link(JnH5File* file, const char* target, const char* name);
 
 /// Attributes of the object `name`; written anew when they exist.
 JnStatus jn_h5_attribute_text(JnH5File* file, const char* name, const char* key, const char* value);

@@ -192,7 +192,7 @@ static bool reach(int file, uint64_t end) {
 }
 
 void jn_h5_commit(JnH5Disk* disk) {
-	if (disk->error != 0) return;
+	if (disk->error != 0 || disk->is_rehearsal) return;
 	bool is_good = !disk->is_cut || reach(disk->file, disk->end); // pages must not tell of an end that is not there
 	if (is_good) is_good = commit_pages(disk);
 	if (is_good && disk->is_cut) is_good = ftruncate(disk->file, (off_t)disk->end) == 0;
@@ -205,7 +205,7 @@ void jn_h5_commit(JnH5Disk* disk) {
 
 void jn_h5_sync_disk(JnH5Disk* disk) {
 	jn_h5_commit(disk);
-	if (disk->error == 0 && fdatasync(disk->file) != 0) keep_error(disk);
+	if (disk->error == 0 && !disk->is_rehearsal && fdatasync(disk->file) != 0) keep_error(disk);
 }
 
 static char* journal_path(const char* path) {
@@ -226,14 +226,15 @@ static void close_files(JnH5Disk* disk) {
 
 bool jn_h5_disk_open(JnH5Disk* disk, const char* path, int flags) {
 	struct stat facts;
-	*disk = (JnH5Disk){.file = -1, .journal = -1};
+	*disk = (JnH5Disk){.is_rehearsal = disk->is_rehearsal, .file = -1, .journal = -1};
 	disk->journal_path = journal_path(path);
 	errno = ENOMEM;
 	const bool is_mine = disk->journal_path != NULL && ((flags & O_RDWR) == 0 || open_journal(disk));
+	if (disk->is_rehearsal) flags = O_RDONLY;
 	if (is_mine) disk->file = open(path, flags | O_CLOEXEC, 0666);
 	if (disk->file >= 0 && fstat(disk->file, &facts) == 0) {
 		disk->end = (uint64_t)facts.st_size;
-		disk->committed = (disk->end + PAGE - 1) / PAGE;
+		disk->committed = disk->is_rehearsal ? UINT64_MAX / PAGE : (disk->end + PAGE - 1) / PAGE;
 		return true;
 	}
 	keep_error(disk);

@@ -10,6 +10,7 @@
 //   /scene                       the scene file's text     /frames/00000000/<field> [n,3] or [n], its unit an attribute
 #include <stdlib.h>
 
+#include "base/guard.h"
 #include "base/log.h"
 #include "base/timer.h"
 #include "record/body.h"
@@ -158,14 +159,17 @@ static void name_frame(char name[64], long frame) {
 static JnStatus cut(Hdf5* hdf5, const JnRecordInfo* info) {
 	JnH5File* file = &hdf5->file;
 	char name[512];
+	bool is_found = true;
 	name_frame(name, hdf5->frame_count - 1);
-	if (hdf5->frame_count > 0 && !jn_h5_has(file, name))
+	if (hdf5->frame_count > 0) JN_TRY(jn_h5_find(file, name, &is_found));
+	if (!is_found)
 		return jn_error(JN_BAD_INPUT,
 						"%s: has fewer than the %ld frames that the checkpoint tells of; it is that of another run",
 						file->path, hdf5->frame_count);
 	for (long frame = hdf5->frame_count;; frame++) {
 		name_frame(name, frame);
-		if (!jn_h5_has(file, name)) break;
+		JN_TRY(jn_h5_find(file, name, &is_found));
+		if (!is_found) break;
 		JN_TRY(jn_h5_remove(file, name));
 	}
 	for (int i = 0; i < info->column_count; i++) {
@@ -176,21 +180,6 @@ static JnStatus cut(Hdf5* hdf5, const JnRecordInfo* info) {
 	JN_TRY(jn_h5_attribute_text(file, "/", "outcome", "running"));
 	JN_TRY(jn_h5_attribute_text(file, "/", "message", ""));
 	return jn_h5_flush(file);
-}
-
-static JnStatus resume_hdf5(JnRecorder* recorder, const JnRecordInfo* info, JnArchive* archive) {
-	Hdf5* hdf5 = (Hdf5*)recorder;
-	archive_hdf5(recorder, archive);
-	JN_TRY(archive->status);
-	JnStatus status = take_buffers(hdf5, info);
-	if (status == JN_OK) status = jn_h5_open(&hdf5->file, info->directory, "run.h5");
-	if (status == JN_OK) {
-		status = cut(hdf5, info);
-		if (status != JN_OK) jn_h5_close(&hdf5->file);
-	}
-	if (status != JN_OK) free_buffers(hdf5);
-	hdf5->flushed = jn_seconds();
-	return status;
 }
 
 static JnStatus append_series(Hdf5* hdf5) {
@@ -275,6 +264,65 @@ static JnStatus write_end(Hdf5* hdf5, const JnRecordEnd* end) {
 	JN_TRY(jn_h5_attribute_text(&hdf5->file, "/", "outcome", end->outcome));
 	JN_TRY(jn_h5_attribute_text(&hdf5->file, "/", "message", end->message));
 	return jn_h5_flush(&hdf5->file);
+}
+
+static JnStatus write_zeros(Hdf5* hdf5, const JnRecordInfo* info, const double* zeros, const double** fields) {
+	for (int i = 0; i < info->field_count; i++) fields[i] = zeros;
+	buffer_row(hdf5, info->column_count, zeros);
+	JN_TRY(append_series(hdf5));
+	JN_TRY(write_frame(hdf5, &(JnRecordStep){.x = zeros, .v = zeros, .fields = fields}));
+	return write_end(hdf5, &(JnRecordEnd){.outcome = "interrupted", .message = "a line of words"});
+}
+
+// HDF5 crashes on some damaged files. So what is to come is first tried in a child process that leaves the file as it is: the recording
+// is cut, and gets a row, a frame and an end. The recorder is the child's own copy.
+static JnStatus rehearse(void* user, FILE* result) {
+	Hdf5* hdf5 = user;
+	const JnRecordInfo* info = hdf5->base.info;
+	(void)result;
+	JN_TRY(take_buffers(hdf5, info));
+	JN_TRY(jn_h5_open_rehearsal(&hdf5->file, info->directory, "run.h5"));
+	JN_TRY(cut(hdf5, info));
+	double* zeros = calloc(3 * (size_t)info->node_count + (size_t)info->column_count + 1, sizeof *zeros);
+	const double** fields = calloc((size_t)info->field_count + 1, sizeof *fields);
+	const JnStatus status = zeros != NULL && fields != NULL
+								? write_zeros(hdf5, info, zeros, fields)
+								: jn_error(JN_OUT_OF_MEMORY, "out of memory: no room to try run.h5");
+	free(fields);
+	free(zeros);
+	JN_TRY(status);
+	return jn_h5_close(&hdf5->file);
+}
+
+static JnStatus try_to_go_on(Hdf5* hdf5, const JnRecordInfo* info) {
+	const size_t frame = 24 * (size_t)(info->node_count + jn_record_points(info)); // bytes of a vector for each
+	const JnGuardLimits limits = {.memory = ((size_t)1 << 30) + 8 * frame,
+								  .seconds = 60 + (int)(frame >> 20),
+								  .remedy = "it is damaged: run the scene again"};
+	char path[JN_PATH_SIZE];
+	FILE* result;
+	hdf5->base.info = info;
+	JN_TRY(jn_path_join(info->directory, "run.h5", path));
+	JN_TRY(jn_h5_recover(path));
+	JN_TRY(jn_guard_run(path, limits, rehearse, hdf5, &result));
+	fclose(result);
+	return JN_OK;
+}
+
+static JnStatus resume_hdf5(JnRecorder* recorder, const JnRecordInfo* info, JnArchive* archive) {
+	Hdf5* hdf5 = (Hdf5*)recorder;
+	archive_hdf5(recorder, archive);
+	JN_TRY(archive->status);
+	JN_TRY(try_to_go_on(hdf5, info));
+	JnStatus status = take_buffers(hdf5, info);
+	if (status == JN_OK) status = jn_h5_open(&hdf5->file, info->directory, "run.h5");
+	if (status == JN_OK) {
+		status = cut(hdf5, info);
+		if (status != JN_OK) jn_h5_close(&hdf5->file);
+	}
+	if (status != JN_OK) free_buffers(hdf5);
+	hdf5->flushed = jn_seconds();
+	return status;
 }
 
 static JnStatus close_hdf5(JnRecorder* recorder, const JnRecordEnd* end) {

@@ -18,15 +18,12 @@ typedef struct Series {
 	size_t pending; // bytes in the stream's buffer, at most BUFFER_BYTES
 	long size;      // bytes of the file, those in the buffer included
 	double flushed; // clock at the last flush [s]
-	bool is_broken; // a failure has been told
 } Series;
 
 static JnStatus flush(Series* series) {
 	series->pending = 0;
 	series->flushed = jn_seconds();
-	const JnStatus status = jn_text_flush(&series->file);
-	series->is_broken = status != JN_OK;
-	return status;
+	return jn_text_flush(&series->file);
 }
 
 static JnStatus take_line(Series* series, const JnRecordInfo* info) {
@@ -114,9 +111,7 @@ static JnStatus close_series(JnRecorder* recorder, const JnRecordEnd* end) {
 	Series* series = (Series*)recorder;
 	(void)end;
 	free(series->line);
-	if (!series->is_broken) return jn_text_close(&series->file);
-	jn_text_abandon(&series->file);
-	return JN_IO_FAILED;
+	return jn_text_close(&series->file);
 }
 
 const JnRecorderType jn_recorder_series = {

@@ -37,10 +37,6 @@ long jn_record_triangles(const JnRecordInfo* info) {
 }
 
 void jn_record_surface_positions(const JnRecordInfo* info, const double* x, double* positions) {
-	if (!jn_record_has_embedding(info)) {
-		memcpy(positions, x, 3 * (size_t)info->node_count * sizeof *positions);
-		return;
-	}
 	for (int i = 0; i < info->body_count; i++) {
 		const JnRecordBody* body = &info->bodies[i];
 		const double* own = x + 3 * (ptrdiff_t)body->first_node;

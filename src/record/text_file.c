@@ -11,8 +11,9 @@
 JnStatus jn_path_join(const char* directory, const char* name, char path[JN_PATH_SIZE]) {
 	const int length = snprintf(path, JN_PATH_SIZE, "%s/%s", directory, name);
 	if (length >= 0 && length < JN_PATH_SIZE) return JN_OK;
-	return jn_error(JN_IO_FAILED, "the path %s/%s is longer than %d bytes; record into a directory nearer to the root",
-					directory, name, JN_PATH_SIZE - 1);
+	return jn_error(JN_IO_FAILED,
+					"the path of %s in %.60s... is longer than %d bytes; record into a directory nearer to the root",
+					name, directory, JN_PATH_SIZE - 1);
 }
 
 JnStatus jn_text_open(JnTextFile* file, const char* directory, const char* name, JnTextMode mode) {
@@ -36,14 +37,18 @@ JnStatus jn_text_resume(JnTextFile* file, const char* directory, const char* nam
 	file->stream = fopen(file->path, "r+");
 	if (file->stream == NULL)
 		return jn_error(JN_IO_FAILED, "%s: cannot open the file to go on: %s", file->path, strerror(errno));
-	const bool is_long_enough = fseek(file->stream, 0, SEEK_END) == 0 && ftell(file->stream) >= size;
-	if (is_long_enough && ftruncate(fileno(file->stream), size) == 0 && fseek(file->stream, size, SEEK_SET) == 0)
+	const long length = fseek(file->stream, 0, SEEK_END) == 0 ? ftell(file->stream) : -1;
+	const bool is_shorter = length >= 0 && length < size;
+	if (length >= size && ftruncate(fileno(file->stream), size) == 0 && fseek(file->stream, size, SEEK_SET) == 0)
 		return JN_OK;
+	const int error = errno;
 	fclose(file->stream);
 	file->stream = NULL;
-	return jn_error(JN_BAD_INPUT,
-					"%s: has fewer than the %ld bytes that the checkpoint tells of; it is that of another run",
-					file->path, size);
+	if (is_shorter)
+		return jn_error(JN_BAD_INPUT,
+						"%s: has fewer than the %ld bytes that the checkpoint tells of; it is that of another run",
+						file->path, size);
+	return jn_error(JN_IO_FAILED, "%s: cannot be gone on with: %s", file->path, strerror(error));
 }
 
 static void keep_error(JnTextFile* file) {
@@ -61,8 +66,10 @@ void jn_text_write(JnTextFile* file, const char* text, size_t length) {
 	if (fwrite(text, 1, length, file->stream) != length) keep_error(file);
 }
 
-static JnStatus tell_error(const JnTextFile* file) {
+static JnStatus tell_error(JnTextFile* file) {
 	if (file->error == 0) return JN_OK;
+	if (file->is_told) return JN_IO_FAILED;
+	file->is_told = true;
 	return jn_error(JN_IO_FAILED, "%s: cannot write the file: %s", file->path, strerror(file->error));
 }
 

@@ -3,6 +3,7 @@
 #ifndef JN_RECORD_TEXT_FILE_H
 #define JN_RECORD_TEXT_FILE_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "jounce/base.h"
@@ -19,6 +20,7 @@ typedef struct JnTextFile {
 	FILE* stream;
 	JnTextMode mode;
 	int error;                    ///< errno of the first write that failed, or 0
+	bool is_told;                 ///< in a message
 	char path[JN_PATH_SIZE];      ///< the name that readers use
 	char temporary[JN_PATH_SIZE]; ///< the name while it is being written
 } JnTextFile;
@@ -30,14 +32,14 @@ JnStatus jn_path_join(const char* directory, const char* name, char path[JN_PATH
 JnStatus jn_text_open(JnTextFile* file, const char* directory, const char* name, JnTextMode mode);
 
 /// Open the file `name` in `directory` to go on behind its first `size` bytes; what follows them is cut off. JN_BAD_INPUT
-/// when it has not so many.
+/// when it has not so many, JN_IO_FAILED when it cannot be read or cut.
 JnStatus jn_text_resume(JnTextFile* file, const char* directory, const char* name, long size);
 
 /// Append. A failure is kept in `file` and told by the next flush or close.
 void jn_text_print(JnTextFile* file, const char* format, ...) __attribute__((format(printf, 2, 3)));
 void jn_text_write(JnTextFile* file, const char* text, size_t length);
 
-/// Hand what was written to the system. JN_IO_FAILED after any failure so far.
+/// Hand what was written to the system. JN_IO_FAILED after any failure so far, which is told once.
 JnStatus jn_text_flush(JnTextFile* file);
 
 /// The same, and it survives a loss of power.

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/aligned.h"
 #include "base/log.h"
 #include "base/parallel.h"
 #include "solve/cg_refine.h"
@@ -55,7 +56,7 @@ static void destroy(JnSolver* solver) {
 		if (cg->preconditions[way] != NULL) cg->preconditions[way]->type->destroy(cg->preconditions[way]);
 	for (int slot = 0; slot < JN_SOLVER_SLOTS; ++slot) {
 		free(cg->slots[slot].blocks);
-		free(cg->slots[slot].single);
+		jn_aligned_free(cg->slots[slot].single);
 	}
 	jn_cg_refine_destroy(&cg->refine);
 	free(cg->diagonal);
@@ -334,12 +335,6 @@ static JnStatus approximate(JnSolver* solver, int slot, double tolerance, const 
 	return solve_to(solver, slot, fmax(def->tolerance, tolerance), true, rhs, out);
 }
 
-static JnSolverCost cost(const JnSolver* solver) {
-	const Cg* cg = (const Cg*)solver;
-	const JnPrecondition* precondition = cg->preconditions[cg->base.way];
-	return precondition != NULL ? precondition->type->cost(precondition) : (JnSolverCost){0};
-}
-
 static const char* const preconditions[] = {"auto", "none", "block", "kept", "incomplete", "multigrid", NULL};
 static const char* const matrix_forms[] = {"auto", "assembled", NULL};
 static const char* const precisions[] = {"mixed", "double", NULL};
@@ -395,7 +390,7 @@ static const JnKey cg_keys[] = {
 
 #define VERBS                                                                                                          \
 	.destroy = destroy, .takes_products = takes_products, .attach = attach, .factor = factor, .solve = solve,          \
-	.approximate = approximate, .cost = cost
+	.approximate = approximate
 
 const JnSolverType jn_solver_cg = {
 	.row = {.name = "cg",

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/aligned.h"
 #include "base/log.h"
 
 JnStatus jn_cg_double_create(JnCgDouble* cg, const JnPattern* pattern, const bool* held, int threads) {
@@ -29,8 +30,8 @@ void jn_cg_double_destroy(JnCgDouble* cg) {
 	for (int i = 0; cg->space != NULL && i < 5; ++i) cg->space->ops->destroy(cg->space, vectors[i]);
 	jn_host_space_destroy(cg->space);
 	free(cg->held_list);
-	free(cg->single_r);
-	free(cg->single_z);
+	jn_aligned_free(cg->single_r);
+	jn_aligned_free(cg->single_z);
 	*cg = (JnCgDouble){0};
 }
 

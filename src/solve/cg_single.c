@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/aligned.h"
 #include "base/log.h"
 #include "base/parallel.h"
 
@@ -31,7 +32,7 @@ JnStatus jn_cg_single_create(JnCgSingle* cg, const JnPattern* pattern, const boo
 
 void jn_cg_single_destroy(JnCgSingle* cg) {
 	float* const vectors[] = {cg->x, cg->r, cg->z, cg->p, cg->q};
-	for (int i = 0; i < 5; ++i) free(vectors[i]);
+	for (int i = 0; i < 5; ++i) jn_aligned_free(vectors[i]);
 	free(cg->partial);
 	free(cg->held_list);
 	*cg = (JnCgSingle){0};

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/aligned.h"
 #include "base/log.h"
 #include "solve/blas.h"
 #include "solve/cholmod_half.h"
@@ -58,11 +59,11 @@ static void destroy(JnSolver* solver) {
 	cholmod_common* common = &direct->common;
 	for (int slot = 0; slot < JN_DIRECT_SLOTS; ++slot) {
 		cholmod_free_factor(&direct->factors[slot], common);
-		free(direct->single[slot]);
+		jn_aligned_free(direct->single[slot]);
 	}
 	free(direct->single_panel);
 	free(direct->single_x);
-	free(direct->single_work);
+	jn_aligned_free(direct->single_work);
 	cholmod_free_factor(&direct->symbolic, common);
 	cholmod_free_sparse(&direct->matrix, common);
 	cholmod_free_dense(&direct->rhs, common);
@@ -260,7 +261,7 @@ static JnStatus prepare_single(Direct* direct) {
 		direct->single_panel[s + 1] = direct->single_panel[s] + (size_t)stride * (size_t)(super[s + 1] - super[s]);
 		longest = stride > longest ? stride : longest;
 	}
-	direct->single_work = aligned_alloc(JN_SINGLE_LANES * sizeof(float), (size_t)longest * sizeof(float));
+	direct->single_work = jn_aligned_take((size_t)longest * sizeof(float));
 	return direct->single_work != NULL ? JN_OK : JN_OUT_OF_MEMORY;
 }
 
@@ -351,14 +352,11 @@ static void copy_panel(const cholmod_factor* factor, const JnSingleFactor* singl
 
 static JnStatus copy_to_single(Direct* direct, int slot) {
 	const cholmod_factor* factor = direct->factors[slot];
-	const size_t numbers = direct->single_panel[factor->nsuper] + factor->n,
-				 lane_bytes = JN_SINGLE_LANES * sizeof(float);
-	const size_t bytes = (numbers * sizeof(float) + lane_bytes - 1) / lane_bytes * lane_bytes;
-	if (direct->single[slot] == NULL) { // padding and upper triangles are zeroed once and stay so
-		direct->single[slot] = aligned_alloc(lane_bytes, bytes);
+	const size_t bytes = (direct->single_panel[factor->nsuper] + factor->n) * sizeof(float);
+	if (direct->single[slot] == NULL) { // padding and upper triangles are zeroed here and stay so
+		direct->single[slot] = jn_aligned_take(bytes);
 		if (direct->single[slot] == NULL)
 			return jn_error(JN_OUT_OF_MEMORY, "out of memory: a factor of %zu bytes", bytes);
-		memset(direct->single[slot], 0, bytes);
 	}
 	const JnSingleFactor single = single_factor(direct, slot);
 	for (size_t s = 0; s < factor->nsuper; ++s) copy_panel(factor, &single, s);

@@ -64,9 +64,8 @@ JnStatus jn_half_products(JnHalf* half, int first, size_t stride, double* matrix
 	for (int k = 0; k < half->piece_count; ++k) {
 		const JnHalfPiece* piece = &half->pieces[k];
 		if (half->column[piece->column] < first) continue;
-		for (const JnHalfPiece* other = piece; other != NULL;
-			 other = other->earlier >= 0 ? &half->pieces[other->earlier] : NULL)
-			JN_TRY(add_products(half, piece, other, stride, matrix));
+		for (int other = k; other >= 0; other = half->pieces[other].earlier)
+			JN_TRY(add_products(half, piece, &half->pieces[other], stride, matrix));
 	}
 	return JN_OK;
 }

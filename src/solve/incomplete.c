@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/aligned.h"
 #include "base/log.h"
 #include "solve/single_algebra.h"
 
@@ -24,8 +25,8 @@ JnStatus jn_incomplete_create(JnIncomplete* factor, const JnPattern* pattern, co
 }
 
 void jn_incomplete_destroy(JnIncomplete* factor) {
-	free(factor->L);
-	free(factor->y);
+	jn_aligned_free(factor->L);
+	jn_aligned_free(factor->y);
 	*factor = (JnIncomplete){0};
 }
 
@@ -111,9 +112,11 @@ static bool eliminate(JnIncomplete* factor) {
 }
 
 JnStatus jn_incomplete_factor(JnIncomplete* factor, const double* blocks) {
-	for (double raise = 0; raise <= last_raise; raise = raise > 0 ? 10 * raise : first_raise) {
+	double raise = 0;
+	while (raise <= last_raise) {
 		copy(factor, blocks, raise);
 		if (eliminate(factor)) return JN_OK;
+		raise = raise > 0 ? 10 * raise : first_raise;
 	}
 	return JN_INDEFINITE;
 }

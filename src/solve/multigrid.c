@@ -116,16 +116,8 @@ static void apply(JnPrecondition* base, int slot, const float* r, float* z) {
 		grid->kernels->relax(&grid->levels[0], (JnGridRelax){.c = 1, .beta = 1}, r, NULL, z, grid->threads);
 }
 
-static JnSolverCost cost(const JnPrecondition* base) {
-	const JnMultigrid* grid = (const JnMultigrid*)base;
-	JnSolverCost cost = {.bytes = grid->arena.used};
-	for (int l = 0; l + 1 < grid->count; ++l) {
-		const JnGridLevel *level = &grid->levels[l], *coarse = level + 1;
-		cost.factor_flops += level->work;
-		cost.factor_entries += (double)level->size * JN_GRID_MODES * level->p_start[level->nodes];
-		cost.factor_entries += (double)JN_GRID_MODES * JN_GRID_MODES * coarse->start[coarse->nodes];
-	}
-	return cost;
+static size_t bytes(const JnPrecondition* base) {
+	return ((const JnMultigrid*)base)->arena.used;
 }
 
 const JnPreconditionType jn_precondition_multigrid = {
@@ -134,5 +126,5 @@ const JnPreconditionType jn_precondition_multigrid = {
 	.destroy = destroy,
 	.update = update,
 	.apply = apply,
-	.cost = cost,
+	.bytes = bytes,
 };

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/aligned.h"
 #include "base/log.h"
 #include "base/parallel.h"
 
@@ -36,7 +37,7 @@ JnStatus jn_node_rotation_create(JnNodeRotation* rotation, const JnPattern* patt
 
 void jn_node_rotation_destroy(JnNodeRotation* rotation) {
 	float* const vectors[] = {rotation->from, rotation->now, rotation->quaternion, rotation->turn, rotation->back};
-	for (int i = 0; i < 5; ++i) free(vectors[i]);
+	for (int i = 0; i < 5; ++i) jn_aligned_free(vectors[i]);
 	*rotation = (JnNodeRotation){0};
 }
 

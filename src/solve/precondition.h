@@ -21,7 +21,7 @@ typedef struct JnPreconditionType {
 	/// definite.
 	JnStatus (*update)(JnPrecondition*, int slot, bool renew);
 	void (*apply)(JnPrecondition*, int slot, const float* r, float* z); ///< z = B r
-	JnSolverCost (*cost)(const JnPrecondition*);
+	size_t (*bytes)(const JnPrecondition*);                             ///< memory of what is kept of one matrix
 } JnPreconditionType;
 
 struct JnPrecondition {

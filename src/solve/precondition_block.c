@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/aligned.h"
 #include "base/log.h"
 #include "base/parallel.h"
 #include "math/mat3.h"
@@ -23,7 +24,7 @@ typedef struct Block {
 static void destroy(JnPrecondition* precondition) {
 	if (precondition == NULL) return;
 	Block* block = (Block*)precondition;
-	for (int slot = 0; slot < JN_SOLVER_SLOTS; ++slot) free(block->inverse[slot]);
+	for (int slot = 0; slot < JN_SOLVER_SLOTS; ++slot) jn_aligned_free(block->inverse[slot]);
 	free(block);
 }
 
@@ -87,10 +88,9 @@ static void apply(JnPrecondition* precondition, int slot, const float* r, float*
 	}
 }
 
-static JnSolverCost cost(const JnPrecondition* precondition) {
-	const size_t numbers = JN_SINGLE_INVERSE * (size_t)((const Block*)precondition)->pattern->nodes;
-	return (JnSolverCost){.factor_entries = (double)numbers, .bytes = numbers * sizeof(float)};
+static size_t bytes(const JnPrecondition* precondition) {
+	return JN_SINGLE_INVERSE * (size_t)((const Block*)precondition)->pattern->nodes * sizeof(float);
 }
 
 const JnPreconditionType jn_precondition_block = {
-	.name = "block", .create = create, .destroy = destroy, .update = update, .apply = apply, .cost = cost};
+	.name = "block", .create = create, .destroy = destroy, .update = update, .apply = apply, .bytes = bytes};

@@ -5,6 +5,7 @@
 // as long as strains resemble those of its making, whatever the motion.
 #include <stdlib.h>
 
+#include "base/aligned.h"
 #include "base/log.h"
 #include "base/parallel.h"
 #include "solve/direct.h"
@@ -33,8 +34,8 @@ static void destroy(JnPrecondition* precondition) {
 	if (carried->direct != NULL) carried->direct->type->destroy(carried->direct);
 	jn_incomplete_destroy(&carried->incomplete);
 	jn_node_rotation_destroy(&carried->rotation);
-	free(carried->r);
-	free(carried->z);
+	jn_aligned_free(carried->r);
+	jn_aligned_free(carried->z);
 	free(carried);
 }
 
@@ -151,14 +152,10 @@ static void apply(JnPrecondition* precondition, int slot, const float* r, float*
 	rotate(carried, carried->rotation.turn, carried->z, z);
 }
 
-static JnSolverCost cost(const JnPrecondition* precondition) {
+static size_t bytes(const JnPrecondition* precondition) {
 	const Carried* carried = (const Carried*)precondition;
-	const size_t numbers = JN_SINGLE_INVERSE * (size_t)carried->pattern->blocks;
-	if (!is_complete(carried))
-		return (JnSolverCost){.factor_entries = 0.75 * (double)numbers, .bytes = numbers * sizeof(float)};
-	JnSolverCost cost = jn_solver_direct.cost(carried->direct);
-	cost.bytes /= sizeof(double) / sizeof(float);
-	return cost;
+	if (!is_complete(carried)) return JN_SINGLE_INVERSE * (size_t)carried->pattern->blocks * sizeof(float);
+	return jn_solver_direct.cost(carried->direct).bytes * sizeof(float) / sizeof(double);
 }
 
 JnSolver* jn_kept_direct(const JnPrecondition* kept) {
@@ -166,11 +163,11 @@ JnSolver* jn_kept_direct(const JnPrecondition* kept) {
 }
 
 const JnPreconditionType jn_precondition_kept = {
-	.name = "kept", .create = create_kept, .destroy = destroy, .update = update, .apply = apply, .cost = cost};
+	.name = "kept", .create = create_kept, .destroy = destroy, .update = update, .apply = apply, .bytes = bytes};
 
 const JnPreconditionType jn_precondition_incomplete = {.name = "incomplete",
 													   .create = create_incomplete,
 													   .destroy = destroy,
 													   .update = update,
 													   .apply = apply,
-													   .cost = cost};
+													   .bytes = bytes};

@@ -1,11 +1,10 @@
 #include "solve/single_algebra.h"
 
-#include <stdlib.h>
-#include <string.h>
-
+#include "base/aligned.h"
 #include "base/processor.h"
 
-enum { ALIGNMENT = JN_SINGLE_MULTIPLE * sizeof(float) };
+_Static_assert(JN_SINGLE_MULTIPLE * sizeof(float) == JN_ALIGNMENT,
+			   "vectors are aligned to the entries that they are padded to");
 
 const JnSingleAlgebra* jn_single_algebra(void) {
 #if defined(__x86_64__)
@@ -17,7 +16,5 @@ const JnSingleAlgebra* jn_single_algebra(void) {
 }
 
 float* jn_single_vector(size_t length) {
-	const size_t bytes = (length * sizeof(float) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-	float* vec = aligned_alloc(ALIGNMENT, bytes > 0 ? bytes : ALIGNMENT);
-	return vec != NULL ? memset(vec, 0, bytes) : NULL;
+	return jn_aligned_take(length * sizeof(float));
 }

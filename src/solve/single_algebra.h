@@ -45,7 +45,7 @@ static inline size_t jn_single_length(int nodes) {
 	return (4 * (size_t)nodes + JN_SINGLE_MULTIPLE - 1) / JN_SINGLE_MULTIPLE * JN_SINGLE_MULTIPLE;
 }
 
-/// Zeroed and aligned; NULL when memory is out. Free with free().
+/// Zeroed and aligned; NULL when memory is out. Free with jn_aligned_free().
 float* jn_single_vector(size_t length);
 
 #endif

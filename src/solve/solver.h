@@ -57,7 +57,7 @@ typedef struct JnSolverType {
 	/// Like solve, until the residual is below tolerance |rhs|, or better: a factor in single precision gives about six
 	/// digits whatever is asked.
 	JnStatus (*approximate)(JnSolver*, int slot, double tolerance, const double* rhs, double* out);
-	JnSolverCost (*cost)(const JnSolver*);
+	JnSolverCost (*cost)(const JnSolver*); ///< NULL: not known
 } JnSolverType;
 
 enum { JN_SOLVER_SLOTS = 4 }; ///< factors that a solver keeps at once

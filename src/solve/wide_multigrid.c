@@ -222,16 +222,15 @@ static void multiply_finest(const JnPattern* pattern, const float* blocks, const
 #define RELAX(name, Vector, size)                                                                                      \
 	JN_INLINE void name(const JnGridLevel* level, JnGridRelax with, int node, const float* b, const float* q,          \
 						float* x) {                                                                                    \
-		Vector *r = (Vector*)level->r + node, *d = (Vector*)level->d + node, *out = (Vector*)x + node;                 \
 		const Vector* inverse = (const Vector*)level->inverse + (size_t)(size) * (size_t)node;                         \
 		const Vector rest =                                                                                            \
 			q != NULL ? ((const Vector*)b)[node] - ((const Vector*)q)[node] : ((const Vector*)b)[node];                \
 		Vector step = rest[0] * inverse[0];                                                                            \
 		JN_UNROLL for (int a = 1; a < (size); ++a) step += rest[a] * inverse[a];                                       \
-		step = with.keep != 0 ? with.keep * *d + with.c * step : with.c * step;                                        \
-		*r = rest;                                                                                                     \
-		*d = step;                                                                                                     \
-		*out = q != NULL ? *out + with.beta * step : with.beta * step;                                                 \
+		step = with.keep != 0 ? with.keep * ((Vector*)level->d)[node] + with.c * step : with.c * step;                 \
+		((Vector*)level->r)[node] = rest;                                                                              \
+		((Vector*)level->d)[node] = step;                                                                              \
+		((Vector*)x)[node] = q != NULL ? ((Vector*)x)[node] + with.beta * step : with.beta * step;                     \
 	}
 
 RELAX(relax_3, Four, 3)

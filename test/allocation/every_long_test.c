@@ -12,7 +12,7 @@ static void each_refused_allocation_ends_in_a_clean_error(void** unused) {
 	(void)unused;
 	long runs = 0;
 	for (const Case* tried = allocation_cases; tried->scene != NULL; ++tried) {
-		const long more = allocation_sweep(tried, SWEEP_ALL);
+		const long more = allocation_sweep_case(tried, SWEEP_ALL);
 		printf("%s: %ld failures\n", tried->scene, more);
 		fflush(stdout);
 		runs += more;

@@ -12,7 +12,7 @@ static void a_run_that_is_refused_memory_ends_in_a_clean_error(void** unused) {
 	(void)unused;
 	long runs = 0;
 	for (const Case* tried = allocation_cases; tried->scene != NULL; ++tried) {
-		runs += allocation_sweep(tried, SWEEP_NEW_SITES);
+		runs += allocation_sweep_case(tried, SWEEP_NEW_SITES);
 		printf("%s: %d sites so far\n", tried->scene, allocation_site_count());
 		fflush(stdout);
 	}

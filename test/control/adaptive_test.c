@@ -151,6 +151,23 @@ static void quadrature_returns_to_its_grid(void** state) {
 	spring_close(&c);
 }
 
+// The last step of 50 ms is shorter than its size of 125 ms: one that is refused is cut below its own.
+static void a_short_last_step_is_halved_below_its_own_size(void** state) {
+	(void)state;
+	SpringCase c;
+	assert_int_equal(
+		spring_open(&c, the_spring(),
+					"{duration: 50 ms, integrator: newmark, step: {controller: step_doubling, dt: 0.125 s, "
+					"tolerance: 1e-4 m}}"),
+		JN_OK);
+	assert_int_equal(jn_sim_step(c.sim), JN_OK);
+	assert_true(jn_sim_last_report(c.sim)->rejected > 0);
+	const double level = log2(0.125 / jn_sim_last_dt(c.sim));
+	expect_near(level, round(level), 0, "halvings of the first size");
+	assert_true(level >= 2 && level <= 1 + jn_sim_last_report(c.sim)->rejected); // 62.5 ms is no attempt
+	spring_close(&c);
+}
+
 // ---- speed_limit
 
 static void a_step_goes_the_distance_at_the_speed_of_its_start(void** state) {
@@ -273,6 +290,22 @@ static void controllers_refuse_methods_that_they_cannot_serve(void** state) {
 		   "rk4");
 }
 
+static void a_first_step_outside_of_its_bounds_is_refused(void** state) {
+	(void)state;
+	static const struct {
+		const char *controller, *method;
+	} rules[] = {{"force_error", "newmark"},   {"embedded", "tr_bdf2"},      {"zienkiewicz_xie", "newmark"},
+				 {"step_doubling", "newmark"}, {"stretch_limit", "newmark"}, {"speed_limit", "newmark"},
+				 {"stable", "verlet"}};
+	for (size_t i = 0; i < sizeof rules / sizeof *rules; ++i) {
+		char step[100];
+		snprintf(step, sizeof step, "{controller: %s, dt: 1 ms, dt_min: 1 s}", rules[i].controller);
+		refuse(rules[i].method, step, "step.dt: 0.001 s is outside [dt_min, dt_max]", "choose a first step between");
+	}
+	refuse("newmark", "{controller: force_error, dt_min: 1 s, dt_max: 0.5 s}", "step.dt_min: 1 s is above dt_max",
+		   "lower it or raise dt_max");
+}
+
 static void a_list_of_rules_must_make_sense(void** state) {
 	(void)state;
 	refuse("newmark", "{controller: combined, rules: []}", "step.rules", "empty");
@@ -308,12 +341,14 @@ int main(void) {
 		cmocka_unit_test(two_halves_are_counted_with_the_whole),
 		cmocka_unit_test(the_halves_that_are_kept_are_those_of_two_steps),
 		cmocka_unit_test(quadrature_returns_to_its_grid),
+		cmocka_unit_test(a_short_last_step_is_halved_below_its_own_size),
 		cmocka_unit_test(a_step_goes_the_distance_at_the_speed_of_its_start),
 		cmocka_unit_test(no_accepted_step_stretches_more_than_allowed),
 		cmocka_unit_test(a_model_is_stretched_by_its_edges_not_by_motion),
 		cmocka_unit_test(the_estimate_bounds_the_step_where_forces_are_linear),
 		cmocka_unit_test(the_smaller_step_of_all_rules_is_taken),
 		cmocka_unit_test(controllers_refuse_methods_that_they_cannot_serve),
+		cmocka_unit_test(a_first_step_outside_of_its_bounds_is_refused),
 		cmocka_unit_test(a_list_of_rules_must_make_sense),
 		cmocka_unit_test(the_rule_that_ends_a_run_says_so),
 	};

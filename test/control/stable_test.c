@@ -109,6 +109,23 @@ static void a_first_step_beyond_the_limit_is_refused(void** state) {
 	jn_user_system_destroy(sys);
 }
 
+// Free masses have no frequency: the step is as large as it may be.
+static void without_stiffness_the_step_grows_to_its_bound(void** state) {
+	(void)state;
+	Chain chain = {0};
+	JnSystem* sys = new_chain(&chain);
+	JnSim* sim = NULL;
+	double x[LINKS] = {0}, v[LINKS] = {1};
+	const char* settings = "{duration: 100 s, integrator: {method: verlet}, step: {controller: stable, dt: 1 ms, "
+						   "dt_max: 0.25 s}}";
+	assert_int_equal(jn_sim_create_for(sys, settings, x, v, &sim), JN_OK);
+	while (!jn_sim_is_done(sim)) assert_int_equal(jn_sim_step(sim), JN_OK);
+	expect_near(jn_sim_next_dt(sim), 0.25, 0, "size of a step");
+	expect_near(jn_sim_state(sim)->x[0], 100, 1e-10, "distance"); // of 400 sums
+	jn_sim_destroy(sim);
+	jn_user_system_destroy(sys);
+}
+
 static void methods_without_a_limit_are_refused(void** state) {
 	(void)state;
 	static const char* const methods[] = {"backward_euler", "newmark", "explicit_euler"};
@@ -156,6 +173,7 @@ int main(void) {
 		cmocka_unit_test(the_frequency_of_a_chain_is_found),
 		cmocka_unit_test(steps_are_a_share_of_the_limit),
 		cmocka_unit_test(a_first_step_beyond_the_limit_is_refused),
+		cmocka_unit_test(without_stiffness_the_step_grows_to_its_bound),
 		cmocka_unit_test(methods_without_a_limit_are_refused),
 		cmocka_unit_test(the_limit_of_a_box_is_that_of_fixed_steps),
 	};

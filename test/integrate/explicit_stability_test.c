@@ -2,6 +2,7 @@
 /// The largest stable steps of explicit methods, with and without damping, on one node of a linear solid that moves along
 /// one axis.
 #include "integrate/explicit_methods.h"
+#include "integrate/properties.h"
 
 // The step of a linear oscillator is a matrix on (x, v / omega): its spectral radius at omega dt.
 static double spectral_radius(Rig* rig, int entry, double omega, double phase) {
@@ -95,6 +96,20 @@ static void damping_shifts_the_limits_as_the_table_says(void** state) {
 	}
 }
 
+// The kick with the old velocity, z = omega dt: |lambda| = 1 at lambda = -1, where 4 - z^2 - 4 xi z = 0.
+static void the_limit_of_an_overdamped_motion_is_found(void** state) {
+	(void)state;
+	static const double ratios[] = {0.1, 1, 10, 100, 1e3, 1e6};
+	for (size_t i = 0; i < sizeof ratios / sizeof *ratios; ++i) {
+		const double xi = ratios[i], expected = 2 / (xi + sqrt(xi * xi + 1));
+		double limit;
+		assert_int_equal(jn_integrator_stability_limit(&jn_symplectic_euler, xi, &limit), JN_OK);
+		print_message("damping ratio %g: limit %.6g, expected %.6g\n", xi, limit, expected);
+		// the radius may exceed 1 by 1e-9, and grows by some xi times the change of z there
+		expect_near(limit / expected, 1, 1e-6, "limit at a damping ratio of %g", xi);
+	}
+}
+
 // Of the linear oscillator with z = omega dt: Euler |1 + iz|, midpoint sqrt(det) = sqrt(1 + z^2/2), half step sqrt(1 + z^4/4).
 static void methods_without_limit_grow_at_every_step_size_by_what_theory_says(void** state) {
 	(void)state;
@@ -116,6 +131,7 @@ int main(void) {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(limits_of_stability_are_those_of_the_table),
 		cmocka_unit_test(damping_shifts_the_limits_as_the_table_says),
+		cmocka_unit_test(the_limit_of_an_overdamped_motion_is_found),
 		cmocka_unit_test(methods_without_limit_grow_at_every_step_size_by_what_theory_says),
 	};
 	return cmocka_run_group_tests(tests, NULL, NULL);

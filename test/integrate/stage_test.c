@@ -160,6 +160,41 @@ static void a_solved_start_costs_one_force_and_no_solve(void** state) {
 	point_case_destroy(&c);
 }
 
+// A system that does not tell the size of its forces: the tolerance is relative to the first residual.
+static void without_typical_forces_the_first_residual_is_the_measure(void** state) {
+	(void)state;
+	PointCase c;
+	JnNewtonDef newton = plain;
+	newton.tolerance = 1e-3;
+	point_case(&c, arctangent, arctangent_stiffness, newton);
+	c.system.base.force_scale = 0;
+	assert_int_equal(solve_from(&c, 0.5, 1), JN_OK);
+	double first = 0, left = 0;
+	for (int k = 0; k < POINT_LENGTH; ++k) {
+		first += pow(c.system.force(c.x[k]), 2);
+		left += pow(c.system.force(c.s.x[k]) - c.a[k], 2);
+	}
+	expect_near(c.system.report.residual, sqrt(left / first), 1e-12, "residual"); // rounding of both
+	assert_true(c.system.report.residual <= 1e-3);
+	point_case_destroy(&c);
+}
+
+static double no_force(double x) {
+	(void)x;
+	return 0;
+}
+
+static void without_any_force_there_is_nothing_to_solve(void** state) {
+	(void)state;
+	PointCase c;
+	point_case(&c, no_force, no_force, plain);
+	c.system.base.force_scale = 0;
+	assert_int_equal(solve_from(&c, 5, 1), JN_OK);
+	assert_true(c.system.report.residual == 0 && c.system.report.newton == 0);
+	for (int k = 0; k < POINT_LENGTH; ++k) assert_true(c.a[k] == 0 && c.s.x[k] == c.x[k]);
+	point_case_destroy(&c);
+}
+
 // ---- a solid ----
 
 static void swinging_case(ModelCase* c, const char* law) {
@@ -283,6 +318,8 @@ int main(void) {
 		cmocka_unit_test(too_few_iterations_are_reported),
 		cmocka_unit_test(mode_linear_is_exact_for_a_linear_force),
 		cmocka_unit_test(a_solved_start_costs_one_force_and_no_solve),
+		cmocka_unit_test(without_typical_forces_the_first_residual_is_the_measure),
+		cmocka_unit_test(without_any_force_there_is_nothing_to_solve),
 		cmocka_unit_test(modes_of_reuse_and_guesses_agree),
 		cmocka_unit_test(root_and_linear_agree_for_linear_laws),
 		cmocka_unit_test(mode_linear_is_not_the_solution_of_a_nonlinear_law),

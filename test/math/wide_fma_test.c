@@ -19,7 +19,8 @@ static uint64_t next(uint64_t* seed) {
 // 1 to 53 random bits, so that ties and exact sums occur, times a power of two up to 2^spread or 2^-spread.
 static double number(uint64_t* seed, int bits, int spread) {
 	const uint64_t r = next(seed), kept = (r >> 11) | 1;
-	const int few = 1 + (int)(next(seed) >> 16) % bits, power = (int)(next(seed) >> 24) % (2 * spread + 1) - spread;
+	const int few = 1 + (int)((next(seed) >> 16) % (unsigned)bits);
+	const int power = (int)((next(seed) >> 24) % (2 * (unsigned)spread + 1)) - spread;
 	return ldexp((r & 1 ? -1.0 : 1.0) * (double)(kept & ((UINT64_C(1) << few) - 1)), power - few);
 }
 

@@ -140,6 +140,49 @@ static void sheets_thinner_than_a_triangle_do_not_cross_themselves(void** unused
 	jn_arena_free(&arena);
 }
 
+/// A ball with a cavity in it, between spheres of the last two radii; without: a shell alone.
+static JnSurface ball_with_gap(JnArena* arena, double radius, double outer, double inner) {
+	JnSurface whole = surface_sphere(arena, radius, 8), cavity = surface_sphere(arena, outer, 8);
+	const JnSurface core = surface_sphere(arena, inner, 8);
+	for (int t = 0; t < cavity.triangle_count; t++) surface_reverse(&cavity, t);
+	const JnSurface shell = surface_join(arena, &whole, &cavity, 0);
+	return inner > 0 ? surface_join(arena, &shell, &core, 0) : shell;
+}
+
+// No triangles of 0.5 keep two spheres apart that are 1e-5 from each other; without the gap there is a ball.
+static void a_gap_that_cells_cannot_follow_is_left_out_with_a_warning(void** unused) {
+	(void)unused;
+	need_gmsh();
+	JnArena arena = {0};
+	Words words;
+	JnMesh mesh;
+	const JnSurface surface = ball_with_gap(&arena, 1, 0.6, 0.59999), ball = surface_sphere(&arena, 1, 8);
+	words_keep(&words);
+	assert_int_equal(jn_tetrahedra_fill(&surface, 0.5, "ball", &arena, &mesh), JN_OK);
+	jn_log_set_sink(NULL, NULL);
+	assert_says(&words, "ball: cells of 0.5 m cannot follow the surface: edges were rounded and thin parts left out");
+	const double whole = jn_surface_volume(&ball);
+	assert_near("volume", volume_of(&mesh), whole, 0.12 * whole); // chords of 0.5 lie 3.2 % of the radius inside
+	jn_arena_free(&arena);
+}
+
+static void a_shell_thinner_than_cells_can_be_is_refused(void** unused) {
+	(void)unused;
+	need_gmsh();
+	JnArena arena = {0};
+	Words words;
+	JnMesh mesh;
+	JnSurface along;
+	const JnSurface surface = ball_with_gap(&arena, 1, 0.99999, 0);
+	words_keep(&words);
+	assert_int_equal(jn_resurface_along(&surface, 0.5, "shell", &arena, &along), JN_BAD_INPUT);
+	assert_says(&words, "shell: parts of the surface are too near to each other for triangles of 0.5 m");
+	assert_int_equal(jn_tetrahedra_fill(&surface, 0.5, "shell", &arena, &mesh), JN_BAD_INPUT);
+	assert_says(&words, "shell: nothing of it is as large as 0.25 m");
+	jn_log_set_sink(NULL, NULL);
+	jn_arena_free(&arena);
+}
+
 static void sizes_and_surfaces_that_cannot_be_are_refused(void** unused) {
 	(void)unused;
 	JnArena arena = {0};
@@ -203,6 +246,8 @@ int main(void) {
 		cmocka_unit_test(the_same_surface_gives_the_same_mesh),
 		cmocka_unit_test(the_zero_set_of_the_distance_serves_where_the_surface_does_not),
 		cmocka_unit_test(sheets_thinner_than_a_triangle_do_not_cross_themselves),
+		cmocka_unit_test(a_gap_that_cells_cannot_follow_is_left_out_with_a_warning),
+		cmocka_unit_test(a_shell_thinner_than_cells_can_be_is_refused),
 		cmocka_unit_test(sizes_and_surfaces_that_cannot_be_are_refused),
 		cmocka_unit_test(the_armadillo_is_filled),
 		cmocka_unit_test(the_bunny_is_filled),

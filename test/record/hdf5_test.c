@@ -11,7 +11,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "record/h5_driver.h"
+#include "record/h5_file.h"
 
 static hid_t open_file(const Sample* sample) {
 	const hid_t file = H5Fopen(sample_path(sample, "run.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -436,6 +436,48 @@ static void run_after_a_full_disk_is_recorded(void** state) {
 	H5Fclose(file);
 }
 
+// ---- a rehearsal ----
+
+static unsigned char* read_bytes(const char* path, size_t* size) {
+	FILE* file = fopen(path, "rb");
+	assert_non_null(file);
+	assert_int_equal(fseek(file, 0, SEEK_END), 0);
+	*size = (size_t)ftell(file);
+	rewind(file);
+	unsigned char* bytes = malloc(*size);
+	assert_non_null(bytes);
+	assert_int_equal(fread(bytes, 1, *size, file), *size);
+	fclose(file);
+	return bytes;
+}
+
+static void a_rehearsal_writes_as_if_and_leaves_the_file_as_it_is(void** state) {
+	Sample* sample = *state;
+	JnH5File file;
+	size_t size_before, size_after;
+	const double numbers[1000] = {1};
+	const hsize_t count = 1000;
+	sample_record(sample);
+	unsigned char* before = read_bytes(sample_path(sample, "run.h5"), &size_before);
+	assert_int_equal(jn_h5_open_rehearsal(&file, sample->directory, "run.h5"), JN_OK);
+	assert_int_equal(jn_h5_attribute_text(&file, "/", "outcome", "rehearsed"), JN_OK);
+	assert_int_equal(jn_h5_remove(&file, "/frames/00000000"), JN_OK);
+	assert_int_equal(jn_h5_array(&file, "/more", H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, 1, &count, numbers), JN_OK);
+	assert_int_equal(jn_h5_sync(&file), JN_OK);
+	check_text(file.id, "/", "outcome", "rehearsed");
+	bool is_added, is_removed;
+	assert_int_equal(jn_h5_find(&file, "/more", &is_added), JN_OK);
+	assert_int_equal(jn_h5_find(&file, "/frames/00000000", &is_removed), JN_OK);
+	assert_true(is_added && !is_removed);
+	assert_int_equal(jn_h5_close(&file), JN_OK);
+	unsigned char* after = read_bytes(sample_path(sample, "run.h5"), &size_after);
+	assert_int_equal(size_after, size_before);
+	assert_memory_equal(after, before, size_before);
+	assert_int_equal(access(sample_path(sample, "run.h5.journal"), F_OK), -1);
+	free(before);
+	free(after);
+}
+
 // ---- the journal ----
 
 enum { PAGE_BYTES = 4096 };
@@ -523,6 +565,7 @@ int main(void) {
 		TEST(fields_read_back_bit_for_bit_with_their_units),
 		TEST(obstacles_read_back_one_by_one_and_together),
 		TEST(a_run_without_obstacles_has_no_trace_of_them),
+		TEST(a_rehearsal_writes_as_if_and_leaves_the_file_as_it_is),
 		TEST(a_whole_journal_is_put_into_its_file),
 		TEST(a_journal_that_is_not_whole_is_of_no_use),
 		TEST(the_journal_of_a_run_in_progress_is_left_alone),

@@ -24,6 +24,15 @@ static void unwritable_directory_is_named(void** state) {
 	check_message(sample, "/proc/self/run.h5");
 }
 
+static void a_path_that_is_too_long_is_refused_with_a_remedy(void** state) {
+	Sample* sample = *state;
+	static char directory[5000];
+	memset(directory, 'a', sizeof directory - 1);
+	sample->info.directory = directory;
+	assert_int_equal(sample_open(sample), JN_IO_FAILED);
+	check_message(sample, "is longer than 4095 bytes; record into a directory nearer to the root");
+}
+
 // series.csv comes fourth: those before are open by then and have to be closed.
 static void failed_open_closes_those_before(void** state) {
 	Sample* sample = *state;
@@ -149,6 +158,45 @@ static void field_called_as_another_is_refused(void** state) {
 	}
 }
 
+static void body_called_as_the_folder_itself_is_refused(void** state) {
+	Sample* sample = *state;
+	sample->bodies[1].name = ".";
+	assert_int_equal(sample_open(sample), JN_BAD_INPUT);
+	check_message(sample, "\".\"");
+}
+
+static void obstacle_without_a_name_is_refused(void** state) {
+	Sample* sample = *state;
+	JnRecordObstacle nameless = sample_obstacles[0];
+	nameless.name = "";
+	sample->info.obstacle_count = 1;
+	sample->info.obstacles = &nameless;
+	assert_int_equal(sample_open(sample), JN_BAD_INPUT);
+	check_message(sample, "the obstacle cannot be recorded under the name \"\"");
+}
+
+static void field_with_a_slash_is_refused(void** state) {
+	Sample* sample = *state;
+	const JnField field = {"push/pull", "N", 3};
+	sample->info.field_count = 1;
+	sample->info.fields = &field;
+	assert_int_equal(sample_open(sample), JN_BAD_INPUT);
+	check_message(sample, "push/pull");
+}
+
+// A smaller step would not help.
+static void nan_at_the_start_points_to_the_scene(void** state) {
+	Sample* sample = *state;
+	double values[SAMPLE_COLUMNS];
+	sample_values(0, values);
+	values[3] = NAN;
+	assert_int_equal(sample_open(sample), JN_OK);
+	const JnRecordStep step = {.values = values};
+	assert_int_equal(jn_recorders_write(&sample->recorders, &step), JN_NOT_FINITE);
+	check_message(sample, "Look at the sizes, velocities and materials of the scene");
+	assert_int_equal(sample_close(sample), JN_OK);
+}
+
 static void body_called_nodes_is_refused(void** state) {
 	Sample* sample = *state;
 	sample->bodies[0].name = "nodes";
@@ -179,6 +227,7 @@ int main(void) {
 	const struct CMUnitTest tests[] = {
 		TEST(missing_directory_is_named),
 		TEST(unwritable_directory_is_named),
+		TEST(a_path_that_is_too_long_is_refused_with_a_remedy),
 		TEST(failed_open_closes_those_before),
 		TEST(full_disk_under_hdf5_is_told),
 		TEST(full_disk_under_xdmf_is_told),
@@ -187,6 +236,10 @@ int main(void) {
 		TEST(nan_in_a_position_is_refused_by_node),
 		TEST(infinite_velocity_is_refused_by_node),
 		TEST(body_called_nodes_is_refused),
+		TEST(body_called_as_the_folder_itself_is_refused),
+		TEST(obstacle_without_a_name_is_refused),
+		TEST(field_with_a_slash_is_refused),
+		TEST(nan_at_the_start_points_to_the_scene),
 		TEST(column_with_a_comma_is_refused),
 		TEST(second_close_does_nothing),
 		TEST(full_disk_under_surface_xdmf_is_told),

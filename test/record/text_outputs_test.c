@@ -67,6 +67,22 @@ static void summary_escapes_texts_and_has_no_infinity(void** state) {
 	free(json);
 }
 
+// Characters of two, three and four bytes stay; bytes that are none become U+FFFD each: a continuation alone, overlong forms,
+// surrogates, numbers above 10FFFF, and a character that ends too early.
+static void summary_keeps_utf8_and_marks_what_is_none(void** state) {
+	static const char text[] = "\xC3\xA9\xE2\x82\xAC\xF0\x9F\xA6\x86|\x80|\xC0\xAF|\xE0\x80\xAF|\xF0\x80\x80\xAF|"
+							   "\xED\xA0\x80|\xF4\x90\x80\x80|\xF5|\xE2\x82|";
+	static const char expected[] =
+		"\xC3\xA9\xE2\x82\xAC\xF0\x9F\xA6\x86|\\ufffd|\\ufffd\\ufffd|\\ufffd\\ufffd\\ufffd|"
+		"\\ufffd\\ufffd\\ufffd\\ufffd|\\ufffd\\ufffd\\ufffd|\\ufffd\\ufffd\\ufffd\\ufffd|\\ufffd|\\ufffd\\ufffd|\"";
+	Sample* sample = *state;
+	sample->info.scene_name = text;
+	sample_record(sample);
+	char* json = sample_read(sample, "summary.json");
+	check_contains(json, expected);
+	free(json);
+}
+
 static int count_parts(const char* text, const char* part) {
 	int count = 0;
 	for (const char* at = text; (at = strstr(at, part)) != NULL; at++) count++;
@@ -146,6 +162,33 @@ static void plots_without_their_column_are_skipped(void** state) {
 	assert_string_equal(sample->messages, "");
 }
 
+// gnuplot ends a string at a line break.
+static void a_title_is_one_line(void** state) {
+	Sample* sample = *state;
+	sample->info.scene_name = "two\nlines";
+	sample_record(sample);
+	char* script = sample_read(sample, "plots/energy.gnuplot");
+	check_contains(script, "set title 'two lines");
+	free(script);
+}
+
+// As many as an SVG file bears.
+static void long_series_are_thinned_out_in_pictures(void** state) {
+	Sample* sample = *state;
+	enum { ROWS = 8001 };
+	assert_int_equal(sample_open(sample), JN_OK);
+	for (long k = 0; k < ROWS; k++) {
+		double values[SAMPLE_COLUMNS];
+		sample_values(k, values);
+		const JnRecordStep step = {.step = k, .t = values[1], .values = values};
+		assert_int_equal(jn_recorders_write(&sample->recorders, &step), JN_OK);
+	}
+	assert_int_equal(sample_close(sample), JN_OK);
+	char* script = sample_read(sample, "plots/step_size.gnuplot");
+	check_contains(script, "every 3 using"); // 8001 rows, at most 4000
+	free(script);
+}
+
 static void check_picture(const Sample* sample, const char* name, const char* start) {
 	FILE* stream = fopen(sample_path(sample, name), "r");
 	assert_non_null(stream);
@@ -199,6 +242,25 @@ static void missing_gnuplot_is_one_warning(void** state) {
 }
 
 // check_recording.py exits with 77 when a module is missing.
+static void a_gnuplot_that_fails_is_one_warning_with_its_log(void** state) {
+	Sample* sample = *state;
+	char* path = strdup(getenv("PATH"));
+	FILE* file = fopen(sample_path(sample, "gnuplot"), "w");
+	assert_non_null(file);
+	fputs("#!/bin/sh\necho no terminal; exit 1\n", file);
+	fclose(file);
+	assert_int_equal(chmod(sample_path(sample, "gnuplot"), 0700), 0);
+	setenv("PATH", sample->directory, 1);
+	sample_record(sample);
+	setenv("PATH", path, 1);
+	free(path);
+	assert_int_equal(count_parts(sample->messages, "\n"), 1);
+	check_contains(sample->messages, sample_path(sample, "plots/gnuplot.log"));
+	char* log = sample_read(sample, "plots/gnuplot.log");
+	assert_int_equal(count_parts(log, "no terminal\n"), 4); // pictures
+	free(log);
+}
+
 static void check_by_python(Sample* sample, const char* cell_types) {
 	sample_record(sample);
 	const char* script = JN_SOURCE_DIR "/test/record/check_recording.py";
@@ -265,13 +327,17 @@ int main(void) {
 		TEST(csv_numbers_read_back_to_the_same_bits),
 		TEST(rows_are_on_disk_a_second_later),
 		TEST(summary_escapes_texts_and_has_no_infinity),
+		TEST(summary_keeps_utf8_and_marks_what_is_none),
 		TEST(xdmf_has_a_grid_a_frame),
 		TEST(xdmf_is_complete_during_the_run),
 		TEST(scripts_name_their_columns_and_missing_ones_are_left_out),
 		TEST(plots_without_their_column_are_skipped),
 		TEST(gnuplot_draws_all_pictures),
 		TEST(run_without_a_step_is_drawn),
+		TEST(a_title_is_one_line),
+		TEST(long_series_are_thinned_out_in_pictures),
 		TEST(missing_gnuplot_is_one_warning),
+		TEST(a_gnuplot_that_fails_is_one_warning_with_its_log),
 		TEST(python_opens_a_run_of_one_body),
 		TEST(python_opens_a_run_of_two_shapes),
 		TEST(python_opens_a_run_with_an_embedded_surface),

@@ -118,6 +118,25 @@ static void a_capsule_goes_from_end_to_end(void** state) {
 					(double[]){1, 0, 0});
 }
 
+// From a point on the axis all ways out are as long: whichever is taken, it is across and has length 1.
+static void from_the_axis_of_a_capsule_the_way_out_is_across(void** state) {
+	(void)state;
+	static const struct {
+		double end[3], direction[3]; // the axis times the direction of which it has least
+	} samples[] = {{{2, 0, 0}, {0, 0, 1}},
+				   {{0, 2, 0}, {0, 0, -1}},
+				   {{0, 0, 2}, {0, 1, 0}},
+				   {{1.2, 1.6, 0}, {0.8, -0.6, 0}},
+				   {{1.6, 1.2, 0}, {0.6, -0.8, 0}}};
+	for (size_t i = 0; i < sizeof samples / sizeof *samples; ++i) {
+		const double* end = samples[i].end;
+		char shape[160];
+		snprintf(shape, sizeof shape, "type: capsule, from: [0, 0, 0], to: [%g, %g, %g], radius: 0.25", end[0], end[1],
+				 end[2]);
+		expect_distance(shape, (double[]){end[0] / 2, end[1] / 2, end[2] / 2}, -0.25, samples[i].direction);
+	}
+}
+
 static void a_mesh_is_placed_like_a_body(void** state) {
 	(void)state;
 	expect_distance("type: mesh, path: corner.off", (double[]){0.2, -0.5, 0.2}, 0.5, (double[]){0, -1, 0});
@@ -191,6 +210,8 @@ static void obstacle_meshes_must_be_closed_surfaces(void** state) {
 	(void)state;
 	expect_refusal("  - {shape: {type: mesh, path: open.off}}", "obstacles[0].shape.path: ", "close the holes");
 	expect_refusal("  - {shape: {type: mesh, path: none.off}}", "obstacles[0].shape.path: ", "cannot be read");
+	expect_refusal("  - {shape: {type: mesh, path: " JN_SOURCE_DIR "/test/allocation/volume.vtk}}",
+				   "obstacles[0].shape.path: ", "holds a volume; give a closed surface, such as an .obj file");
 	expect_refusal("  - {shape: {type: mesh, path: corner.off, scale: 0}}", "obstacles[0].shape.scale: ", "write 1 mm");
 }
 
@@ -207,6 +228,7 @@ int main(void) {
 		cmocka_unit_test(a_box_has_full_edges),
 		cmocka_unit_test(a_box_turns_about_x_then_y_then_z),
 		cmocka_unit_test(a_capsule_goes_from_end_to_end),
+		cmocka_unit_test(from_the_axis_of_a_capsule_the_way_out_is_across),
 		cmocka_unit_test(a_mesh_is_placed_like_a_body),
 		cmocka_unit_test(bodies_say_how_they_take_part),
 		cmocka_unit_test(a_run_records_its_obstacles),

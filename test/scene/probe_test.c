@@ -110,6 +110,8 @@ static void a_probe_that_follows_nothing_is_refused(void** state) {
 	expect_refusal("  - {name: a, at: [0, 0, 0], where: {face: all}}\n", "probes[0]: both");
 	expect_refusal("  - {name: a, where: {face: all}}\n", "there are 2; name one with 'body'");
 	expect_refusal("  - {name: a, body: rihgt, where: {face: all}}\n", "did you mean 'right'?");
+	expect_refusal("  - {name: a, body: something_else, where: {face: all}}\n",
+				   "probes[0].body: there is no body 'something_else'; use the name of one of the bodies");
 	expect_refusal("  - {name: a, body: right, where: {set: foot}}\n", "no set 'foot'. Sets here: none");
 	expect_refusal("  - {name: a, body: left, where: {set: food}}\n", "did you mean 'foot'? Sets here: foot");
 	expect_refusal("  - {name: a, body: left, where: {box: {min: [5, 5, 5], max: [6, 6, 6]}}}\n", "no node lies there");

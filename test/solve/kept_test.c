@@ -9,8 +9,11 @@
 
 #include <cmocka.h>
 
+#include "solve/kept.h"
 #include "solve/node_rotation.h"
+#include "solve/precondition.h"
 #include "solve/solver.h"
+#include "support/support.h"
 
 enum { MOST_NODES = 216 };
 
@@ -218,6 +221,53 @@ static void auto_without_memory_for_a_factor_solves_all_the_same(void** state) {
 	jn_arena_free(&net.arena);
 }
 
+// Once it has spent enough auto wants to know what a factor would cost, and is told that there is no room for one: once.
+static void a_factor_that_is_too_large_is_asked_for_once(void** state) {
+	(void)state;
+	static Net net;
+	static const JnCgDef def = {.tolerance = 1e-8, .max_iterations = 500, .memory = 1};
+	static double x[3 * MOST_NODES];
+	JnSolver* solver = NULL;
+	net_create(&net, 6, 6, 6);
+	assert_int_equal(jn_solver_cg.create(&def, &net.pattern, net.held, 1, &solver), JN_OK);
+	log_capture();
+	for (int i = 0; i < 2000; ++i) {
+		for (int k = 0; k < 3 * net.nodes; ++k) x[k] = sin(1.7 * k + i);
+		assert_int_equal(solver->type->factor(solver, 0, net.blocks), JN_OK);
+		assert_int_equal(solver->type->solve(solver, 0, x, x), JN_OK);
+		assert_true(solver->way != JN_WAY_KEPT && solver->way != JN_WAY_DIRECT);
+	}
+	log_release();
+	const char* first = strstr(log_text(), "none is made");
+	assert_non_null(first);
+	assert_null(strstr(first + 1, "none is made"));
+	solver->type->destroy(solver);
+	jn_arena_free(&net.arena);
+}
+
+// In single precision, half of what the factor takes in double; the incomplete one has the entries of the matrix.
+static void preconditioners_tell_what_they_keep(void** state) {
+	(void)state;
+	static Net net;
+	net_create(&net, 6, 6, 6);
+	const JnOperator matrices = {.user = &net, .apply = multiply, .diagonal = diagonal_of, .blocks = blocks_of};
+	static const JnPreconditionType* const types[] = {&jn_precondition_block, &jn_precondition_incomplete,
+													  &jn_precondition_kept};
+	size_t bytes[3];
+	for (int k = 0; k < 3; ++k) {
+		JnPrecondition* made = NULL;
+		assert_int_equal(types[k]->create(&net.pattern, net.held, 1, &matrices, &made), JN_OK);
+		assert_int_equal(types[k]->update(made, 0, true), JN_OK);
+		bytes[k] = types[k]->bytes(made);
+		if (k == 2) assert_int_equal(bytes[k], jn_solver_direct.cost(jn_kept_direct(made)).bytes / 2);
+		types[k]->destroy(made);
+	}
+	assert_true(bytes[0] > 0);
+	assert_int_equal(bytes[1] / bytes[0], net.pattern.blocks / net.nodes);
+	assert_true(bytes[2] > bytes[1]); // it fills in
+	jn_arena_free(&net.arena);
+}
+
 static void without_positions_the_factor_is_soon_useless(void** state) {
 	(void)state;
 	static Net net;
@@ -267,6 +317,8 @@ int main(void) {
 		cmocka_unit_test(an_incomplete_factor_of_a_thread_is_complete),
 		cmocka_unit_test(an_incomplete_factor_halves_the_iterations_at_least),
 		cmocka_unit_test(auto_without_memory_for_a_factor_solves_all_the_same),
+		cmocka_unit_test(a_factor_that_is_too_large_is_asked_for_once),
+		cmocka_unit_test(preconditioners_tell_what_they_keep),
 		cmocka_unit_test(without_positions_the_factor_is_soon_useless),
 		cmocka_unit_test(rotations_stay_finite),
 	};

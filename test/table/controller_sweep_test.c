@@ -2,6 +2,7 @@
 /// Every row of the list of controllers: it steps every method or refuses it by name, survives forces that fail, ends a run
 /// without a trace when it must, and leaves nothing of the attempts that it refuses.
 #include "base/document.h"
+#include "support/failing_system.h"
 #include "support/spring_case.h"
 
 static int set_up(void** state) {
@@ -27,7 +28,9 @@ static void step_text(const JnRow* row, double dt, double least, size_t size, ch
 				 "{controller: speed_limit, dt: %g s, dt_min: %g s, distance: 3 cm}]}",
 				 dt, least, dt, least);
 	} else {
-		const char* extra = strcmp(name, "stretch_limit") == 0 ? ", stretch: 0.02" : "";
+		const char* extra = strcmp(name, "stretch_limit") == 0 ? ", stretch: 0.02"
+							: strcmp(name, "stable") == 0      ? ", every: 2"
+															   : "";
 		snprintf(text, size, "{controller: %s, dt: %g s, dt_min: %g s%s}", name, dt, least, extra);
 	}
 }
@@ -104,6 +107,73 @@ static void forces_that_fail_end_the_run_at_its_last_good_state(void** state) {
 	}
 }
 
+typedef struct FailingRun {
+	SpringCase spring; // its sim is that of the failing system
+	FailingSystem failing;
+} FailingRun;
+
+// The step is large enough to be refused at first; so is that of the second rule, where there are two.
+static void open_failing(FailingRun* run, const JnRow* row, const char* method) {
+	const double x = -1, v = 0;
+	char step[300], settings[400];
+	Spring linear = {.k_x = 100, .k_v = 1};
+	run->spring = (SpringCase){.spring = linear};
+	const JnUserSystemDef def = {.count = 1,
+								 .user = &run->spring.spring,
+								 .force = spring_force,
+								 .tangent = spring_tangent,
+								 .depends_on_time = true};
+	assert_int_equal(jn_user_system_create(&def, &run->spring.sys), JN_OK);
+	failing_create(&run->failing, run->spring.sys);
+	step_text(row, 0.3, 1e-6, sizeof step, step);
+	snprintf(settings, sizeof settings, "{duration: 50 s, integrator: %s, step: %s}", method, step);
+	assert_int_equal(jn_sim_create_for(&run->failing.base, settings, &x, &v, &run->spring.sim), JN_OK);
+}
+
+// A few steps, of which the call of that number fails, or none. Returns how many calls there were.
+static long run_failing(const JnRow* row, const char* method, long number, JnStatus outcome) {
+	enum { STEPS = 3 };
+	FailingRun run;
+	JnStatus status = JN_OK;
+	double t = 0, x = -1;
+	open_failing(&run, row, method);
+	failing_at(&run.failing, number, outcome);
+	for (int i = 0; i < STEPS && status == JN_OK; ++i) {
+		t = jn_sim_state(run.spring.sim)->t;
+		x = jn_sim_state(run.spring.sim)->x[0];
+		status = jn_sim_step(run.spring.sim);
+	}
+	const long calls = run.failing.calls;
+	const char* culprit = run.failing.culprit;
+	const bool is_bad = outcome < JN_OK ? status != outcome : status != JN_OK && status != JN_RUN_FAILED;
+	if (number > 0 && (culprit == NULL || is_bad))
+		fail_msg("%s: call %ld, %s, fails with '%s', and the run with '%s'", row->name, number,
+				 culprit != NULL ? culprit : "none", jn_status_name(outcome), jn_status_name(status));
+	const bool has_begun_next = culprit != NULL && strcmp(culprit, "begin") == 0; // after a step that is good
+	if (status != JN_OK && !has_begun_next)
+		assert_true(jn_sim_state(run.spring.sim)->t == t && jn_sim_state(run.spring.sim)->x[0] == x);
+	spring_close(&run.spring);
+	return calls;
+}
+
+static void fail_each_call(const JnRow* row, const char* method) {
+	const long calls = run_failing(row, method, 0, JN_OK);
+	for (long number = 1; number <= calls; ++number) {
+		run_failing(row, method, number, JN_OUT_OF_MEMORY);
+		run_failing(row, method, number, JN_NOT_FINITE);
+	}
+	print_message("%-16s %-18s %ld calls\n", row->name, method, calls);
+}
+
+static void a_call_that_fails_in_a_controller_ends_the_run_or_cuts_the_step(void** state) {
+	(void)state;
+	for (int k = 0; k < jn_controller_list.count; ++k) {
+		const JnRow* row = jn_controller_list.rows[k];
+		fail_each_call(row, served(row));
+		if (strcmp(row->name, "force_error") == 0) fail_each_call(row, "linearized_newmark"); // it keeps its tangent
+	}
+}
+
 // The same steps by hand, without any refused attempt: bit for bit the same, where nothing is kept between steps but what a
 // method says (no tangent, no guess).
 static void replay(const JnRow* row, const char* method, const char* law, bool damped) {
@@ -167,6 +237,7 @@ int main(void) {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(every_controller_steps_every_method_or_refuses_it_by_name),
 		cmocka_unit_test(forces_that_fail_end_the_run_at_its_last_good_state),
+		cmocka_unit_test(a_call_that_fails_in_a_controller_ends_the_run_or_cuts_the_step),
 		cmocka_unit_test(refused_attempts_leave_no_trace),
 	};
 	return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -70,12 +70,12 @@ static JnStatus build(const JnLaw* law, const void* options, const JnMesh* mesh,
 #define REQUIRED(field_name, unit_text, text)                                                                          \
 	{                                                                                                                  \
 		.name = #field_name, .kind = JN_REAL, .field = offsetof(JnConstraintsDef, field_name), .high = INFINITY,       \
-		.open = JN_OPEN_LOW | JN_OPEN_HIGH, .required = true, .unit = unit_text, .meaning = text                       \
+		.open = JN_OPEN_LOW | JN_OPEN_HIGH, .required = true, .unit = (unit_text), .meaning = (text)                   \
 	}
 #define OPTIONAL(field_name, unit_text, text)                                                                          \
 	{                                                                                                                  \
 		.name = #field_name, .kind = JN_REAL, .field = offsetof(JnConstraintsDef, field_name), .high = INFINITY,       \
-		.open = JN_OPEN_HIGH, .unit = unit_text, .meaning = text                                                       \
+		.open = JN_OPEN_HIGH, .unit = (unit_text), .meaning = (text)                                                   \
 	}
 
 static const JnKey keys[] = {

@@ -4,11 +4,11 @@
 #include <limits.h>
 #include <stdio.h>
 
+#include "base/guard.h"
 #include "base/log.h"
 #include "mesh/fill/tetrahedra.h"
 #include "mesh/format/gmsh_library.h"
 #include "mesh/format/gmsh_model.h"
-#include "mesh/format/guard.h"
 
 #ifdef JN_GMSH_LIBRARY
 

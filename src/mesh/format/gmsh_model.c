@@ -138,7 +138,7 @@ static JnStatus write_nodes(Writer* writer, const double* coordinates) {
 static JnStatus write_cells(Writer* writer, const Elements* elements) {
 	const size_t each = elements->node_count / elements->count;
 	Tag* order;
-	int cell[10];
+	int cell[10] = {0};
 	JN_TRY(sort_tags(writer, "element", elements->tags, elements->count, &order));
 	for (size_t i = 0; i < elements->count; ++i) {
 		for (size_t k = 0; k < each; ++k) {

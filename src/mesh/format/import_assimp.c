@@ -9,9 +9,9 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/guard.h"
 #include "base/log.h"
 #include "mesh/format/content.h"
-#include "mesh/format/guard.h"
 #include "mesh/format/import.h"
 #include "mesh/format/ply_check.h"
 #include "mesh/surface_edges.h"
@@ -83,12 +83,17 @@ static JnStatus count_mesh(Reading* reading, const struct aiMesh* mesh, const st
 	return JN_OK;
 }
 
+static JnStatus write_bytes(Reading* reading, const void* data, size_t size) {
+	if (fwrite(data, size, 1, reading->result) == 1) return JN_OK;
+	return jn_error(JN_OUT_OF_MEMORY, "%s: no memory for its mesh", reading->path);
+}
+
 static JnStatus write_nodes(Reading* reading, const struct aiMesh* mesh, const struct aiMatrix4x4* m) {
 	for (unsigned i = 0; i < mesh->mNumVertices; i++) {
 		const double x = mesh->mVertices[i].x, y = mesh->mVertices[i].y, z = mesh->mVertices[i].z;
 		const double at[3] = {m->a1 * x + m->a2 * y + m->a3 * z + m->a4, m->b1 * x + m->b2 * y + m->b3 * z + m->b4,
 							  m->c1 * x + m->c2 * y + m->c3 * z + m->c4};
-		if (fwrite(at, sizeof at, 1, reading->result) != 1) return JN_OUT_OF_MEMORY;
+		JN_TRY(write_bytes(reading, at, sizeof at));
 	}
 	return JN_OK;
 }
@@ -99,7 +104,7 @@ static JnStatus write_triangles(Reading* reading, const struct aiMesh* mesh, con
 		if (!is_triangle(&mesh->mFaces[i])) continue;
 		int nodes[3];
 		for (int k = 0; k < 3; k++) nodes[k] = reading->node_count + (int)mesh->mFaces[i].mIndices[k];
-		if (fwrite(nodes, sizeof nodes, 1, reading->result) != 1) return JN_OUT_OF_MEMORY;
+		JN_TRY(write_bytes(reading, nodes, sizeof nodes));
 	}
 	reading->node_count += (int)mesh->mNumVertices;
 	return JN_OK;
@@ -111,7 +116,7 @@ static JnStatus write_scene(Reading* reading, const struct aiScene* scene) {
 		return jn_error(JN_BAD_INPUT, "%s: has no triangles; it is damaged, or holds points and lines alone",
 						reading->path);
 	const Head head = {reading->node_count, (int)reading->triangle_count};
-	if (fwrite(&head, sizeof head, 1, reading->result) != 1) return JN_OUT_OF_MEMORY;
+	JN_TRY(write_bytes(reading, &head, sizeof head));
 	JN_TRY(visit_scene(reading, scene, write_nodes));
 	reading->node_count = 0;
 	return visit_scene(reading, scene, write_triangles);

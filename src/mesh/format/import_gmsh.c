@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "base/guard.h"
 #include "base/log.h"
 #include "mesh/format/gmsh_model.h"
-#include "mesh/format/guard.h"
 
 #ifdef JN_GMSH_LIBRARY
 

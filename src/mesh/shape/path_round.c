@@ -107,8 +107,8 @@ static JnStatus trace_knot(const void* options, const char* what, JnArena* arena
 
 #define ANGLE_KEY(type, field_name, standard, least, most, edges, text)                                                \
 	{                                                                                                                  \
-		.name = #field_name, .kind = JN_REAL, .field = offsetof(type, field_name), .value = {standard}, .low = least,  \
-		.high = most, .open = edges, .unit = "rad", .meaning = text                                                    \
+		.name = #field_name, .kind = JN_REAL, .field = offsetof(type, field_name), .value = {standard},                \
+		.low = (least), .high = (most), .open = (edges), .unit = "rad", .meaning = (text)                              \
 	}
 
 #define START_KEY(type) ANGLE_KEY(type, start, 0, -1000, 1000, JN_CLOSED, "angle about the axis at which it begins")
@@ -146,7 +146,7 @@ static const JnKey circle_keys[] = {
 #define TURNS_KEY(field_name, standard, text)                                                                          \
 	{                                                                                                                  \
 		.name = #field_name, .kind = JN_INTEGER, .field = offsetof(KnotDef, field_name), .value = {standard},          \
-		.low = 1, .high = 100, .meaning = text                                                                         \
+		.low = 1, .high = 100, .meaning = (text)                                                                       \
 	}
 
 static const JnKey knot_keys[] = {

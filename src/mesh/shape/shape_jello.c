@@ -114,13 +114,13 @@ static JnStatus generate(const void* options, const char* what, JnArena* arena, 
 #define LENGTH(field_name, metres, text)                                                                               \
 	{                                                                                                                  \
 		.name = #field_name, .kind = JN_REAL, .field = offsetof(JelloDef, field_name), .value = {metres},              \
-		.high = INFINITY, .open = JN_OPEN_LOW | JN_OPEN_HIGH, .unit = "m", .meaning = text                             \
+		.high = INFINITY, .open = JN_OPEN_LOW | JN_OPEN_HIGH, .unit = "m", .meaning = (text)                           \
 	}
 
 #define SHARE(field_name, share, most, text)                                                                           \
 	{                                                                                                                  \
-		.name = #field_name, .kind = JN_REAL, .field = offsetof(JelloDef, field_name), .value = {share}, .high = most, \
-		.meaning = text                                                                                                \
+		.name = #field_name, .kind = JN_REAL, .field = offsetof(JelloDef, field_name), .value = {share},               \
+		.high = (most), .meaning = (text)                                                                              \
 	}
 
 static const JnKey keys[] = {
