@@ -3,6 +3,7 @@
 
 #include <ctype.h>
 #include <math.h>
+#include <search.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -126,17 +127,38 @@ static void form_name(const char* label, char name[NAME_SIZE]) {
 	name[length] = '\0';
 }
 
+typedef struct Name {
+	char* text;
+	int copies; // runs that would have it
+} Name;
+
+static int compare_names(const void* a, const void* b) {
+	return strcasecmp(((const Name*)a)->text, ((const Name*)b)->text);
+}
+
+// The first of that name, who may be another; NULL: out of memory.
+static Name* meet(ComparePlan* plan, char* text) {
+	Name* name = jn_arena_take(&plan->arena, 1, sizeof *name);
+	if (name == NULL || text == NULL) return NULL;
+	name->text = text;
+	Name** found = tsearch(name, &plan->names, compare_names);
+	return found != NULL ? *found : NULL;
+}
+
 // Names that the file system would not tell apart get a number; so do those that were cut.
-static const char* unique_name(ComparePlan* plan, int index) {
-	char name[NAME_SIZE], numbered[NAME_SIZE + 16];
-	form_name(plan->runs[index].label, name);
-	snprintf(numbered, sizeof numbered, "%s", name[0] == '\0' || name[0] == '.' ? "run" : name);
-	for (int i = 0, copy = 1; i < index; ++i) {
-		if (strcasecmp(plan->runs[i].name, numbered) != 0) continue;
-		snprintf(numbered, sizeof numbered, "%s_%d", name, ++copy);
-		i = -1;
+static const char* unique_name(ComparePlan* plan, const CompareRun* run) {
+	char base[NAME_SIZE], numbered[NAME_SIZE + 16];
+	form_name(run->label, base);
+	if (base[0] == '\0' || base[0] == '.') snprintf(base, sizeof base, "run");
+	char* text = jn_arena_text(&plan->arena, base);
+	Name *first = meet(plan, text), *own = first;
+	while (own != NULL && own->text != text) {
+		snprintf(numbered, sizeof numbered, "%s_%d", base, ++first->copies);
+		text = jn_arena_text(&plan->arena, numbered);
+		own = meet(plan, text);
 	}
-	return jn_arena_text(&plan->arena, numbered);
+	if (own != NULL) own->copies = 1;
+	return own != NULL ? own->text : NULL;
 }
 
 static const char* join(JnArena* arena, const char* key, const char* value) {
@@ -177,7 +199,7 @@ static int fill_run(ComparePlan* plan, const CompareOptions* options, int index)
 	}
 	run->label = jn_arena_text(&plan->arena, label);
 	plan->groups[run->group] = jn_arena_text(&plan->arena, group);
-	run->name = run->label != NULL ? unique_name(plan, index) : NULL;
+	run->name = run->label != NULL ? unique_name(plan, run) : NULL;
 	return run->name != NULL && plan->groups[run->group] != NULL ? EXIT_DONE : EXIT_RUN_FAILED;
 }
 
@@ -203,7 +225,8 @@ static int fill_reference(ComparePlan* plan, const CompareOptions* options) {
 	}
 	for (int k = 0; k < plan->key_count; ++k) run->values[k] = reference_value(options, plan->keys[k].path);
 	plan->has_reference = true;
-	run->name = unique_name(plan, plan->run_count++);
+	run->name = unique_name(plan, run);
+	++plan->run_count;
 	return run->name != NULL ? EXIT_DONE : EXIT_RUN_FAILED;
 }
 
@@ -235,6 +258,11 @@ int compare_plan_create(const CompareOptions* options, ComparePlan* plan) {
 	return status == EXIT_DONE && options->reference.count > 0 ? fill_reference(plan, options) : status;
 }
 
+static void forget_names(ComparePlan* plan) {
+	while (plan->names != NULL) tdelete(*(Name**)plan->names, &plan->names, compare_names);
+}
+
 void compare_plan_free(ComparePlan* plan) {
+	forget_names(plan);
 	jn_arena_free(&plan->arena);
 }

@@ -33,6 +33,7 @@ typedef struct ComparePlan {
 	CompareKey* keys;
 	int dt_key; ///< index of step.dt among the keys, or -1
 	int run_count;
+	void* names;      ///< of runs so far, in a tree of tsearch
 	CompareRun* runs; ///< the first key varies slowest; the reference is the last
 	bool has_reference;
 	int group_count;

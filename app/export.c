@@ -205,7 +205,7 @@ static int export_with(const Options* options, Export* export) {
 
 int app_export(int count, char** arguments) {
 	Options options = {0};
-	Export export = {.recording.file = H5I_INVALID_HID};
+	Export export = {0};
 	int status = read_options(count, arguments, &options, &export);
 	if (status != EXIT_DONE) return status;
 	if (options.wants_help) return print_help(), EXIT_DONE;

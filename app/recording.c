@@ -7,7 +7,6 @@
 
 #include "base/log.h"
 #include "record/text_file.h"
-#include "recording_file.h"
 #include "recording_part.h"
 
 // ---- opening ----
@@ -31,9 +30,9 @@ static JnStatus find_file(const char* folder, Recording* recording) {
 }
 
 static JnStatus open_file(Recording* recording) {
-	recording->file = recording_file_enter(recording->path);
-	if (recording->file >= 0) return JN_OK;
-	if (H5Fis_hdf5(recording->path) > 0)
+	const JnStatus status = recording_file_enter(recording->path, &recording->file);
+	if (status != JN_IO_FAILED) return status;
+	if (recording_file_is_hdf5(recording->path))
 		return jn_error(
 			JN_BAD_INPUT,
 			"%s: the recording is cut short, damaged, or open elsewhere; copy it anew or run the scene again",
@@ -43,7 +42,9 @@ static JnStatus open_file(Recording* recording) {
 }
 
 static JnStatus read_all(Recording* recording) {
-	if (!recording_has(recording, "/mesh/nodes") || !recording_has(recording, "/frames"))
+	const bool is_one = recording_has(recording, "/mesh/nodes") && recording_has(recording, "/frames");
+	if (recording_file_has_failed(recording->file)) return JN_BAD_INPUT;
+	if (!is_one)
 		return jn_error(
 			JN_BAD_INPUT,
 			"%s: this HDF5 file is no recording: it has no /mesh/nodes and /frames; give what 'jounce run' has written",
@@ -55,17 +56,16 @@ static JnStatus read_all(Recording* recording) {
 }
 
 JnStatus recording_open(const char* folder, Recording* recording) {
-	*recording = (Recording){.file = H5I_INVALID_HID};
-	H5Eget_auto2(H5E_DEFAULT, &recording->printer, &recording->printer_data);
-	H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // the words are ours
+	*recording = (Recording){0};
 	JN_TRY(find_file(folder, recording));
 	JN_TRY(open_file(recording));
-	return read_all(recording);
+	JN_TRY(read_all(recording));
+	return recording_file_has_failed(recording->file) ? JN_BAD_INPUT
+													  : JN_OK; // what may be missing is not asked for twice
 }
 
 void recording_close(Recording* recording) {
 	recording_file_close(&recording->file);
-	H5Eset_auto2(H5E_DEFAULT, recording->printer, recording->printer_data);
 	jn_arena_free(&recording->arena);
 }
 
@@ -82,7 +82,7 @@ int recording_up(const Recording* recording, bool* is_down) {
 static JnStatus read_numbers(const Recording* recording, int frame, const char* name, size_t count, double* values) {
 	char object[512];
 	snprintf(object, sizeof object, "/frames/%08d/%s", frame, name);
-	if (recording_file_array(recording->file, object, H5T_NATIVE_DOUBLE, (hssize_t)count, values) != JN_OK)
+	if (recording_file_array(recording->file, object, RECORDING_REAL, (int64_t)count, values) != JN_OK)
 		return recording_damaged(recording, object);
 	for (size_t i = 0; i < count; ++i)
 		if (!isfinite(values[i]))
@@ -137,7 +137,7 @@ JnStatus recording_field(const Recording* recording, int frame, int field, doubl
 JnStatus recording_series(const Recording* recording, int column, double* values) {
 	char object[512];
 	snprintf(object, sizeof object, "/series/%s", recording->columns[column].name);
-	if (recording_file_array(recording->file, object, H5T_NATIVE_DOUBLE, recording->step_count, values) == JN_OK)
+	if (recording_file_array(recording->file, object, RECORDING_REAL, recording->step_count, values) == JN_OK)
 		return JN_OK;
 	return recording_damaged(recording, object);
 }

@@ -4,12 +4,11 @@
 #ifndef JN_APP_RECORDING_H
 #define JN_APP_RECORDING_H
 
-#include <hdf5.h>
-
 #include "base/arena.h"
 #include "mesh/mesh.h"
 #include "mesh/surface.h"
 #include "mesh/thread.h"
+#include "recording_file.h"
 
 typedef struct RecordingBody {
 	const char* name;
@@ -48,8 +47,8 @@ typedef struct RecordingColumn {
 
 typedef struct Recording {
 	JnArena arena;
-	hid_t file;
-	const char* path; ///< of run.h5
+	RecordingFile* file; ///< NULL: closed
+	const char* path;    ///< of run.h5
 	const char *scene_name, *scene_path, *scene_text, *method, *host, *created, *version;
 	const char *outcome, *message; ///< "running", "done", "failed", "interrupted"; one line, or ""
 	double total_mass;             ///< [kg]
@@ -69,8 +68,6 @@ typedef struct Recording {
 	int step_count; ///< values of each column
 	int frame_count;
 	const double* times; ///< of the frames [s]
-	H5E_auto2_t printer; ///< what HDF5 did with its own messages before
-	void* printer_data;
 } Recording;
 
 /// Open the recording in a folder, or the file run.h5 itself; also of a run that goes on, as far as it is written.

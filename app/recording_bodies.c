@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/log.h"
-#include "recording_file.h"
 #include "recording_part.h"
 
 typedef struct Object {
@@ -55,7 +54,7 @@ static JnStatus read_thread(Recording* recording, RecordingBody* body) {
 	JN_TRY(recording_reals(recording, object.path, 1, &axis, &count));
 	JN_TRY(recording_attribute_count(recording, object.path, "is_closed", &is_closed));
 	if (count != JN_FRAME_NODES || body->node_count < 2 * JN_FRAME_NODES || body->node_count % JN_FRAME_NODES != 0 ||
-		recording_file_attribute(recording->file, object.path, "radius", H5T_NATIVE_DOUBLE, &thread->radius) != JN_OK)
+		recording_file_attribute(recording->file, object.path, "radius", RECORDING_REAL, &thread->radius) != JN_OK)
 		return recording_damaged(recording, object.path);
 	thread->frame_count = body->node_count / JN_FRAME_NODES;
 	thread->is_closed = is_closed != 0;
@@ -94,7 +93,7 @@ static JnStatus read_carriers(Recording* recording, RecordingBody* body) {
 	int *numbers, count, rows, points;
 	double *shares, *point_rest;
 	if (!body->is_embedded) return JN_OK;
-	const hssize_t entries = recording_file_measure(recording->file, nodes.path);
+	const int64_t entries = recording_file_measure(recording->file, nodes.path);
 	if (body->point_count == 0 || entries <= 0 || entries % body->point_count != 0 || entries > INT32_MAX)
 		return recording_damaged(recording, nodes.path);
 	body->carrier_count = (int)(entries / body->point_count);

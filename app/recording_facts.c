@@ -4,21 +4,7 @@
 #include <string.h>
 
 #include "base/log.h"
-#include "recording_file.h"
 #include "recording_part.h"
-
-/// A scalar text in the arena; "" when there is none.
-static const char* read_scene(Recording* recording) {
-	const hid_t type = H5Tcopy(H5T_C_S1);
-	char* text = NULL;
-	H5Tset_size(type, H5T_VARIABLE);
-	H5Tset_cset(type, H5T_CSET_UTF8);
-	const JnStatus status = recording_file_array(recording->file, "/scene", type, 1, &text);
-	const char* copy = jn_arena_text(&recording->arena, status == JN_OK && text != NULL ? text : "");
-	if (text != NULL) H5free_memory(text);
-	H5Tclose(type);
-	return copy;
-}
 
 JnStatus recording_read_facts(Recording* recording) {
 	const struct {
@@ -34,9 +20,9 @@ JnStatus recording_read_facts(Recording* recording) {
 		*texts[i].text = recording_attribute_text(recording, "/", texts[i].name, "");
 		if (*texts[i].text == NULL) return JN_OUT_OF_MEMORY;
 	}
-	recording->scene_text = read_scene(recording);
-	recording_file_array(recording->file, "/gravity", H5T_NATIVE_DOUBLE, 3, recording->gravity);
-	recording_file_attribute(recording->file, "/", "total_mass", H5T_NATIVE_DOUBLE, &recording->total_mass);
+	recording->scene_text = recording_attribute_text(recording, "/scene", NULL, "");
+	recording_file_array(recording->file, "/gravity", RECORDING_REAL, 3, recording->gravity);
+	recording_file_attribute(recording->file, "/", "total_mass", RECORDING_REAL, &recording->total_mass);
 	return recording->scene_text != NULL ? JN_OK : JN_OUT_OF_MEMORY;
 }
 
@@ -45,12 +31,8 @@ JnStatus recording_read_facts(Recording* recording) {
 static JnStatus read_times(Recording* recording) {
 	double* times;
 	JN_NEW(&recording->arena, times, recording->frame_count);
-	for (int i = 0; i < recording->frame_count; ++i) {
-		char group[64];
-		snprintf(group, sizeof group, "/frames/%08d", i);
-		if (recording_file_attribute(recording->file, group, "time", H5T_NATIVE_DOUBLE, &times[i]) != JN_OK)
-			return recording_damaged(recording, group);
-	}
+	if (recording_file_times(recording->file, 0, recording->frame_count, times) != JN_OK)
+		return recording_damaged(recording, "the time of a frame in /frames");
 	recording->times = times;
 	return JN_OK;
 }
@@ -65,11 +47,11 @@ JnStatus recording_read_fields(Recording* recording) {
 	for (int i = 0; i < count; ++i) {
 		char object[512];
 		snprintf(object, sizeof object, "/frames/00000000/%s", names[i]);
-		const hssize_t values = recording_file_measure(recording->file, object);
+		const int64_t values = recording_file_measure(recording->file, object);
 		const bool is_other =
 			strcmp(names[i], "position") == 0 || strcmp(names[i], "velocity") == 0 || strcmp(names[i], "surface") == 0;
 		if (is_other || values <= 0 || values % recording->node_count != 0) continue;
-		const hssize_t components = values / recording->node_count;
+		const int64_t components = values / recording->node_count;
 		const char* unit = recording_attribute_text(recording, object, "unit", "");
 		if (unit == NULL) return JN_OUT_OF_MEMORY;
 		if (components == 1 || components == 3)
@@ -82,7 +64,7 @@ JnStatus recording_read_fields(Recording* recording) {
 static JnStatus read_columns(Recording* recording) {
 	const char* const* names;
 	RecordingColumn* columns;
-	hssize_t steps = 0;
+	int64_t steps = 0;
 	JN_TRY(recording_names(recording, "/series", &names, &recording->column_count));
 	JN_NEW(&recording->arena, columns, recording->column_count + 1);
 	for (int i = 0; i < recording->column_count; ++i) {
@@ -102,7 +84,8 @@ JnStatus recording_read_frames(Recording* recording) {
 	if (recording->frame_count < 1)
 		return jn_error(JN_BAD_INPUT, "%s: there are no frames yet; wait until the run has written one",
 						recording->path);
-	const hssize_t frames = recording_file_links(recording->file, "/frames");
+	const int64_t frames = recording_file_links(recording->file, "/frames");
+	if (recording_file_has_failed(recording->file)) return JN_BAD_INPUT;
 	if (recording->frame_count > frames)
 		return jn_error(JN_BAD_INPUT,
 						"%s: /frames declares %d frames, but holds %lld: the recording is damaged; run the scene again",

@@ -11,7 +11,7 @@ JnStatus recording_read_obstacles(Recording* recording); ///< what never moves
 JnStatus recording_read_frames(Recording* recording);    ///< times and fields of the frames, columns of the series
 JnStatus recording_read_fields(Recording* recording);    ///< what the first frame has, of which there is one
 
-/// Say that `object` is not in the file, or not as it should be.
+/// Say that `object` is not in the file, or not as it should be, unless worse has been said.
 JnStatus recording_damaged(const Recording* recording, const char* object);
 
 /// An array of its own size, `columns` numbers a row. JN_BAD_INPUT after a message.
@@ -21,7 +21,7 @@ JnStatus recording_reals(Recording* recording, const char* object, int columns, 
 /// Are all of `count` numbers from `low` up to `end`, without `end`?
 bool recording_are_within(const int* numbers, size_t count, long low, long end);
 
-/// A text attribute in the arena; `otherwise` when there is none. NULL when memory is out.
+/// A text attribute in the arena, or a text dataset (`name` NULL); `otherwise` when there is none. NULL when memory is out.
 const char* recording_attribute_text(Recording* recording, const char* object, const char* name, const char* otherwise);
 /// An integer attribute. JN_BAD_INPUT after a message when there is none.
 JnStatus recording_attribute_count(const Recording* recording, const char* object, const char* name, int* count);

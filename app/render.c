@@ -142,6 +142,9 @@ static int render(const RenderOptions* options, ViewSources* sources) {
 	work.is_terminal = isatty(STDOUT_FILENO);
 	app_catch_interrupts(0);
 	if (status == EXIT_DONE) status = app_exit_status(draw(&work, sources));
+	for (int i = 0; i < sources->count; ++i) // the browser knows only that there is no answer
+		if (status == EXIT_FILE_FAILED && recording_file_has_failed(sources->list[i].run.recording.file))
+			status = EXIT_BAD_INPUT;
 	render_plan_free(&plan);
 	return status;
 }

@@ -21,9 +21,8 @@ static int open_one(ViewSource* source) {
 int render_sources_open(int count, char** folders, ViewSources* sources) {
 	*sources = (ViewSources){.list = calloc((size_t)count, sizeof *sources->list)};
 	if (sources->list == NULL) return EXIT_RUN_FAILED;
-	H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // the words are ours
 	for (int i = 0; i < count; ++i) {
-		sources->list[i] = (ViewSource){.folder = folders[i], .run.recording.file = -1};
+		sources->list[i] = (ViewSource){.folder = folders[i]};
 		sources->count = i + 1;
 		const int status = open_one(&sources->list[i]);
 		if (status != EXIT_DONE) return status;

@@ -158,6 +158,7 @@ static JnStatus write_page(Report* report) {
 static JnStatus read_series(Report* report) {
 	for (int i = 0; i < report->count; ++i) {
 		const JnStatus status = view_run_series(&report->sources->list[i].run, &report->series[i]);
+		if (status == JN_BAD_INPUT) return status; // with its message
 		if (status != JN_OK)
 			return jn_error(status, "%s: its series cannot be read; is it being written?",
 							report->sources->list[i].folder);
@@ -182,10 +183,9 @@ JnStatus report_write(const ReportOptions* options, ViewSources* sources) {
 JnStatus report_write_folders(const ReportOptions* options, int count, const char* const folders[], bool* is_written) {
 	ViewSources sources = {.list = calloc(REPORT_MOST_RUNS, sizeof *sources.list)};
 	if (sources.list == NULL) return jn_error(JN_OUT_OF_MEMORY, "out of memory: no room for the report's runs");
-	H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // the words are ours
 	for (int i = 0; i < count && sources.count < REPORT_MOST_RUNS; ++i) {
 		ViewSource* source = &sources.list[sources.count];
-		*source = (ViewSource){.folder = folders[i], .run.recording.file = -1};
+		*source = (ViewSource){.folder = folders[i]};
 		view_source_open(source);
 		if (source->is_open && source->run.frame_count > 0)
 			++sources.count;

@@ -82,14 +82,15 @@ static int read_options(int count, char** arguments, Options* options) {
 	return EXIT_DONE;
 }
 
-static int resume(Options* options) {
+static int resume(const Options* options) {
 	RunDisplay display = run_display_begin(options->is_quiet);
 	JnRunResult result;
-	options->resume.run.progress = run_display_progress;
-	options->resume.run.user = &display;
+	JnResumeOptions resumed = options->resume;
+	resumed.run.progress = run_display_progress;
+	resumed.run.user = &display;
 	app_catch_interrupts(SA_RESTART);
 	jn_log_set_sink(run_display_message, &display);
-	const JnStatus status = jn_scene_resume(&options->resume, &result);
+	const JnStatus status = jn_scene_resume(&resumed, &result);
 	jn_log_set_sink(NULL, NULL);
 	if (!options->is_quiet && result.frames > 0) {
 		if (status == JN_OK) printf("resumed after step %ld\n", result.resumed_at);

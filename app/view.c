@@ -49,9 +49,9 @@ static int save(const ViewOptions* options, ViewSources* sources, ViewLive* live
 	ViewSaved saved;
 	app_catch_interrupts(0);
 	if (live->process > 0) view_live_wait(live, &sources->list[0]);
-	int open_count = 0;
-	for (int i = 0; i < sources->count; ++i) open_count += sources->list[i].is_open;
-	if (open_count < sources->count) return EXIT_FILE_FAILED; // what is wrong has been said
+	for (int i = 0; i < sources->count; ++i) // what is wrong has been said
+		if (!sources->list[i].is_open)
+			return sources->list[i].status == JN_BAD_INPUT ? EXIT_BAD_INPUT : EXIT_FILE_FAILED;
 	const JnStatus status = view_save(options->save, sources, (size_t)(1e6 * options->limit), &saved);
 	if (status != JN_OK) return app_exit_status(status);
 	printf("wrote %s: %.1f MB", options->save, (double)saved.bytes / 1e6);
@@ -67,15 +67,14 @@ static bool is_scene(const char* path) {
 	struct stat facts;
 	const char* end = strrchr(path, '.');
 	if (stat(path, &facts) != 0) return end != NULL && strcmp(end, ".yaml") == 0;
-	return !S_ISDIR(facts.st_mode) && H5Fis_hdf5(path) <= 0;
+	return !S_ISDIR(facts.st_mode) && !recording_file_is_hdf5(path);
 }
 
 static void open_sources(ViewSources* sources, const ViewOptions* options, const ViewLive* live) {
 	const bool is_live = live->folder[0] != '\0';
 	for (int i = 0; i < sources->count; ++i) {
 		ViewSource* source = &sources->list[i];
-		*source = (ViewSource){
-			.folder = is_live ? live->folder : options->names[i], .is_awaited = is_live, .run.recording.file = -1};
+		*source = (ViewSource){.folder = is_live ? live->folder : options->names[i], .is_awaited = is_live};
 		if (is_live) continue;
 		view_source_open(source);
 		if (!source->is_open) fprintf(stderr, "jounce: error: %s\n", source->error);
@@ -84,7 +83,6 @@ static void open_sources(ViewSources* sources, const ViewOptions* options, const
 
 static int view(const ViewOptions* options, ViewSources* sources) {
 	ViewLive live = {0};
-	H5Eset_auto2(H5E_DEFAULT, NULL, NULL); // the words are ours
 	if (is_scene(options->names[0])) {
 		if (options->name_count > 1)
 			return app_usage_error("view", "one scene at a time; '%s' is one too many", options->names[1]);

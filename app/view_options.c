@@ -41,10 +41,10 @@ static int read_number(const char* name, double low, double high, double* value)
 static int read_port(int* port) {
 	double number;
 	const int status = read_number("port", 0, 65535, &number);
-	if (status == EXIT_DONE && number != floor(number))
-		return app_usage_error("view", "--port: '%s' is no whole number", optarg);
+	if (status != EXIT_DONE) return status;
+	if (number != floor(number)) return app_usage_error("view", "--port: '%s' is no whole number", optarg);
 	*port = (int)number;
-	return status;
+	return EXIT_DONE;
 }
 
 static int read_option(int option, char** arguments, ViewOptions* options) {

@@ -23,7 +23,8 @@ void view_source_open(ViewSource* source) {
 	if (source->is_open) return;
 	source->error[0] = '\0';
 	const JnLog log = jn_log_swap((JnLog){keep_error, source});
-	source->is_open = view_run_open(&source->run, source->folder) == JN_OK;
+	source->status = view_run_open(&source->run, source->folder);
+	source->is_open = source->status == JN_OK;
 	if (source->is_awaited && source->run.frame_count == 0) source->is_open = false; // its fields are not known yet
 	if (!source->is_open) view_run_close(&source->run);
 	jn_log_swap(log);

@@ -20,6 +20,7 @@ enum { VIEW_MESSAGE_BYTES = 1024 };
 typedef struct ViewSource {
 	const char* folder;
 	bool is_open;
+	JnStatus status; ///< of opening it
 	bool is_awaited; ///< a process that writes it has been started
 	ViewRun run;
 	char error[VIEW_MESSAGE_BYTES]; ///< why it is not open; "" when it is

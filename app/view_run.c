@@ -10,18 +10,22 @@
 
 #include "base/grow.h"
 #include "base/log.h"
-#include "recording_file.h"
 #include "recording_part.h"
 #include "view_field.h"
 #include "view_shape.h"
 
 enum { SILENT_SECONDS = 60 }; // a run that has not written for this long is taken for dead
+enum { MOST_TRIES = 4 };      // a look at a run in progress may meet a commit, which is short
 
 static JnStatus read_outcome(ViewRun* run) {
 	Recording* recording = &run->recording;
-	recording->outcome = recording_attribute_text(recording, "/", "outcome", "");
-	recording->message = recording_attribute_text(recording, "/", "message", "");
-	return recording->outcome != NULL && recording->message != NULL ? JN_OK : JN_OUT_OF_MEMORY;
+	const char* outcome = recording_attribute_text(recording, "/", "outcome", "");
+	const char* message = recording_attribute_text(recording, "/", "message", "");
+	if (outcome == NULL || message == NULL) return JN_OUT_OF_MEMORY;
+	if (*outcome == '\0' || recording_file_has_failed(recording->file)) return JN_IO_FAILED;
+	recording->outcome = outcome;
+	recording->message = message;
+	return JN_OK;
 }
 
 static JnStatus read_summary(ViewRun* run) {
@@ -41,15 +45,13 @@ static JnStatus read_summary(ViewRun* run) {
 
 static JnStatus read_times(ViewRun* run) {
 	long count = 0;
-	JN_TRY(recording_file_attribute(run->recording.file, "/frames", "count", H5T_NATIVE_LONG, &count));
+	JN_TRY(recording_file_attribute(run->recording.file, "/frames", "count", RECORDING_LONG, &count));
 	if (count > recording_file_links(run->recording.file, "/frames")) return JN_IO_FAILED;
 	JN_TRY(jn_grow((void**)&run->times, &run->time_room, (size_t)(count > 0 ? count : 1), sizeof *run->times));
-	for (; run->frame_count < count; ++run->frame_count) {
-		char group[64];
-		snprintf(group, sizeof group, "/frames/%08ld", run->frame_count);
-		JN_TRY(recording_file_attribute(run->recording.file, group, "time", H5T_NATIVE_DOUBLE,
-										&run->times[run->frame_count]));
-	}
+	if (count <= run->frame_count) return JN_OK;
+	JN_TRY(recording_file_times(run->recording.file, run->frame_count, count - run->frame_count,
+								run->times + run->frame_count));
+	run->frame_count = count;
 	return JN_OK;
 }
 
@@ -64,15 +66,28 @@ static JnStatus read_all(ViewRun* run) {
 	return view_fields_list(run);
 }
 
-// A run in progress is opened for each look, since HDF5 would show what it once has read for ever.
-JnStatus view_run_enter(ViewRun* run) {
-	if (run->recording.file < 0) run->recording.file = recording_file_enter(run->path);
-	return run->recording.file < 0 ? JN_IO_FAILED : JN_OK;
+static void say_nothing(void* user, JnLogLevel level, const char* message) {
+	(void)user, (void)level, (void)message;
 }
 
-void view_run_leave(ViewRun* run) {
-	if (run->recording.outcome != NULL && strcmp(run->recording.outcome, "running") != 0) return;
+// A run in progress is opened for each look, since HDF5 would show what it once has read for ever. If it cannot be read, or HDF5
+// crashes on it, it is being written at this moment, which is no damage.
+static JnStatus enter(ViewRun* run) {
+	run->is_quiet = run->recording.outcome != NULL && strcmp(run->recording.outcome, "running") == 0;
+	if (run->is_quiet) run->log = jn_log_swap((JnLog){.sink = say_nothing});
+	if (run->recording.file != NULL) return JN_OK;
+	const JnStatus status = recording_file_enter(run->path, &run->recording.file);
+	return status == JN_BAD_INPUT && run->is_quiet ? JN_IO_FAILED : status;
+}
+
+static JnStatus leave(ViewRun* run, JnStatus status) {
+	if (status == JN_IO_FAILED && !run->is_quiet && recording_file_has_failed(run->recording.file))
+		status = JN_BAD_INPUT;
+	if (run->is_quiet) jn_log_swap(run->log);
+	run->is_quiet = false;
+	if (run->recording.outcome != NULL && strcmp(run->recording.outcome, "running") != 0) return status;
 	recording_file_close(&run->recording.file);
+	return status;
 }
 
 // What is wrong with a file that does not open, in words.
@@ -83,7 +98,7 @@ static JnStatus explain(const ViewRun* run) {
 	if (stat(run->path, &facts) != 0)
 		return jn_error(JN_IO_FAILED, "%s: there is no such file; `jounce run SCENE -o %s` makes it", run->path,
 						run->folder);
-	if (H5Fis_hdf5(run->path) <= 0)
+	if (!recording_file_is_hdf5(run->path))
 		return jn_error(JN_IO_FAILED, "%s: is no HDF5 file; a recording of `jounce run` is needed", run->path);
 	return jn_error(JN_IO_FAILED,
 					"%s: is cut off, damaged, or no recording of `jounce run`; run the scene again to replace it",
@@ -91,17 +106,18 @@ static JnStatus explain(const ViewRun* run) {
 }
 
 JnStatus view_run_open(ViewRun* run, const char* folder) {
-	*run = (ViewRun){.recording = {.file = H5I_INVALID_HID}};
+	*run = (ViewRun){0};
 	JN_TRY(jn_path_join(folder, "run.h5", run->path));
 	run->recording.path = jn_arena_text(&run->recording.arena, run->path);
 	if (run->recording.path == NULL) return JN_OUT_OF_MEMORY;
 	snprintf(run->folder, sizeof run->folder, "%s", folder);
-	JnStatus status = view_run_enter(run);
+	JnStatus status = enter(run);
 	if (status == JN_OK) status = read_all(run);
+	if (status == JN_OK && recording_file_has_failed(run->recording.file)) status = JN_IO_FAILED;
 	const bool is_written = status == JN_OK && strcmp(run->recording.outcome, "running") == 0;
 	if (status == JN_OK && !is_written)
 		status = read_summary(run); // while it is written, that of an earlier run may be there
-	view_run_leave(run);
+	status = leave(run, status);
 	return status == JN_IO_FAILED ? explain(run) : status;
 }
 
@@ -113,7 +129,7 @@ void view_run_close(ViewRun* run) {
 	free(run->times);
 	jn_arena_free(&run->recording.arena);
 	jn_arena_free(&run->arena);
-	*run = (ViewRun){.recording.file = H5I_INVALID_HID};
+	*run = (ViewRun){0};
 }
 
 bool view_run_is_running(const ViewRun* run) {
@@ -124,21 +140,27 @@ bool view_run_is_running(const ViewRun* run) {
 
 JnStatus view_run_refresh(ViewRun* run) {
 	if (strcmp(run->recording.outcome, "running") != 0) return JN_OK;
-	JnStatus status = view_run_enter(run);
-	if (status == JN_OK) status = read_times(run);
-	if (status == JN_OK) status = read_outcome(run);
-	if (status == JN_OK && strcmp(run->recording.outcome, "running") != 0) status = read_summary(run);
-	view_run_leave(run);
+	JnStatus status = JN_IO_FAILED;
+	for (int tries = 0; status == JN_IO_FAILED && tries < MOST_TRIES; ++tries) {
+		status = enter(run);
+		if (status == JN_OK) status = read_times(run);
+		if (status == JN_OK) status = read_outcome(run);
+		if (status == JN_OK && strcmp(run->recording.outcome, "running") != 0) status = read_summary(run);
+		status = leave(run, status);
+	}
 	return status;
 }
 
 JnStatus view_run_read(ViewRun* run, long frame, const char* name, int rows, int components, double* out) {
 	char path[160];
 	snprintf(path, sizeof path, "/frames/%08ld/%s", frame, name);
-	JnStatus status = view_run_enter(run);
-	if (status == JN_OK)
-		status = recording_file_array(run->recording.file, path, H5T_NATIVE_DOUBLE, (hssize_t)rows * components, out);
-	view_run_leave(run);
+	JnStatus status = JN_IO_FAILED;
+	for (int tries = 0; status == JN_IO_FAILED && tries < MOST_TRIES; ++tries) {
+		status = enter(run);
+		if (status == JN_OK)
+			status = recording_file_array(run->recording.file, path, RECORDING_REAL, (int64_t)rows * components, out);
+		status = leave(run, status);
+	}
 	return status;
 }
 
@@ -149,21 +171,16 @@ JnStatus view_run_positions(ViewRun* run, long frame, float* out) {
 	return JN_OK;
 }
 
-static herr_t meet_column(hid_t group, const char* name, const H5L_info_t* info, void* user) {
-	ViewSeries* series = user;
-	(void)group, (void)info;
-	const size_t size = strlen(name) + 1;
-	if (size > sizeof series->columns->name) return 0;
-	if (series->columns != NULL) memcpy(series->columns[series->count].name, name, size);
-	series->count++;
-	return 0;
-}
-
 static JnStatus list_columns(ViewRun* run, ViewSeries* series) {
-	JN_TRY(recording_file_visit(run->recording.file, "/series", meet_column, series));
-	JN_NEW(&series->arena, series->columns, series->count + 1);
-	series->count = 0;
-	return recording_file_visit(run->recording.file, "/series", meet_column, series);
+	const char* const* names;
+	int count;
+	JN_TRY(recording_file_names(run->recording.file, "/series", &series->arena, &names, &count));
+	JN_NEW(&series->arena, series->columns, count + 1);
+	for (int i = 0; i < count; ++i) {
+		const size_t size = strlen(names[i]) + 1;
+		if (size <= sizeof series->columns->name) memcpy(series->columns[series->count++].name, names[i], size);
+	}
+	return JN_OK;
 }
 
 static JnStatus read_columns(ViewRun* run, ViewSeries* series) {
@@ -177,15 +194,20 @@ static JnStatus read_columns(ViewRun* run, ViewSeries* series) {
 		JN_NEW(&series->arena, column->values, series->rows + 1);
 		JN_TRY(recording_file_text(run->recording.file, path, "unit", &series->arena, &unit));
 		snprintf(column->unit, sizeof column->unit, "%s", unit);
-		JN_TRY(recording_file_array(run->recording.file, path, H5T_NATIVE_DOUBLE, series->rows, column->values));
+		JN_TRY(recording_file_array(run->recording.file, path, RECORDING_REAL, series->rows, column->values));
 	}
 	return JN_OK;
 }
 
 JnStatus view_run_series(ViewRun* run, ViewSeries* series) {
+	JnStatus status = JN_IO_FAILED;
 	*series = (ViewSeries){0};
-	JnStatus status = view_run_enter(run);
-	if (status == JN_OK) status = read_columns(run, series);
-	view_run_leave(run);
+	for (int tries = 0; status == JN_IO_FAILED && tries < MOST_TRIES; ++tries) {
+		jn_arena_free(&series->arena);
+		*series = (ViewSeries){0};
+		status = enter(run);
+		if (status == JN_OK) status = read_columns(run, series);
+		status = leave(run, status);
+	}
 	return status;
 }

@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 
+#include "base/log.h"
 #include "record/text_file.h"
 #include "recording.h"
 #include "view_elastic.h"
@@ -42,7 +43,7 @@ typedef struct ViewField {
 typedef struct ViewRun {
 	char folder[JN_PATH_SIZE], path[JN_PATH_SIZE];
 	JnArena arena;
-	Recording recording; ///< facts, bodies, obstacles; its file is < 0 while closed
+	Recording recording; ///< facts, bodies, obstacles; its file is NULL while closed
 	char* summary;       ///< text of summary.json; NULL: there is none yet
 	int body_count, obstacle_count, field_count;
 	ViewBody* bodies; ///< in the order of their nodes
@@ -60,6 +61,8 @@ typedef struct ViewRun {
 	long frame_count;
 	double* times; ///< of the frames [s]
 	size_t time_room;
+	bool is_quiet; ///< while a run in progress is looked at; `log` is where messages went before
+	JnLog log;
 	ViewElastic elastic; ///< built when strain energy or stress is first asked for
 	bool has_tried_elastic;
 	char elastic_reason[256]; ///< why there is none; "" when there is
@@ -77,13 +80,9 @@ bool view_run_is_running(const ViewRun* run);
 /// moment, so that it cannot be read; what was known stays. Ask again.
 JnStatus view_run_refresh(ViewRun* run);
 
-/// out[3 * run->points.count]: where the drawn points are in a frame [m]. JN_IO_FAILED, without a message.
+/// out[3 * run->points.count]: where the drawn points are in a frame [m]. JN_IO_FAILED, without a message; here and below
+/// JN_BAD_INPUT when HDF5 crashes on what is not being written, which has been said.
 JnStatus view_run_positions(ViewRun* run, long frame, float* out);
-
-/// Open the file, unless it is open, to read from run->recording.file; and close it again if it is being written. JN_IO_FAILED,
-/// without a message.
-JnStatus view_run_enter(ViewRun* run);
-void view_run_leave(ViewRun* run);
 
 /// out[rows * components]: a dataset of a frame. JN_IO_FAILED, without a message.
 JnStatus view_run_read(ViewRun* run, long frame, const char* name, int rows, int components, double* out);

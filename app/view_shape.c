@@ -76,12 +76,13 @@ static JnStatus draw_bodies(ViewRun* run) {
 	const RecordingBody nodes = {
 		.name = "nodes", .shape = JN_POINT1, .node_count = recording->node_count, .point_count = recording->node_count};
 	const RecordingBody* bodies = recording->body_count > 0 ? recording->bodies : &nodes;
+	const int count = recording->body_count > 0 ? recording->body_count : 1;
 	size_t triangles = 0;
-	run->body_count = recording->body_count > 0 ? recording->body_count : 1;
-	for (int b = 0; b < run->body_count; ++b) triangles += (size_t)bodies[b].triangle_count;
-	JN_NEW(&run->arena, run->bodies, run->body_count);
+	for (int b = 0; b < count; ++b) triangles += (size_t)bodies[b].triangle_count;
+	run->body_count = count;
+	JN_NEW(&run->arena, run->bodies, count);
 	JN_NEW(&run->arena, run->triangles, 3 * triangles + 1);
-	for (int b = 0; b < run->body_count; ++b) JN_TRY(draw_body(run, &bodies[b], &run->bodies[b]));
+	for (int b = 0; b < count; ++b) JN_TRY(draw_body(run, &bodies[b], &run->bodies[b]));
 	return JN_OK;
 }
 

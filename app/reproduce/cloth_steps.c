@@ -90,7 +90,7 @@ static JnStatus add_squares(Frames* frames, Frames* reference, double* sum) {
 }
 
 static JnStatus measure_distance(const char* folder, const char* reference_folder, double* error) {
-	Frames frames, reference = {.file = -1};
+	Frames frames, reference = {0};
 	double sum = 0;
 	JnStatus status = frames_open(folder, &frames);
 	if (status == JN_OK) status = frames_open(reference_folder, &reference);

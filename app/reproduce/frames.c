@@ -4,71 +4,65 @@
 #include <stdio.h>
 
 #include "base/log.h"
-#include "recording_file.h"
 
 static JnStatus read_times(Frames* frames) {
-	JN_TRY(recording_file_attribute(frames->file, "/frames", "count", H5T_NATIVE_INT, &frames->count));
+	JN_TRY(recording_file_attribute(frames->file, "/frames", "count", RECORDING_INTEGER, &frames->count));
 	if (frames->count < 1) return JN_IO_FAILED;
 	JN_NEW(&frames->arena, frames->times, frames->count);
-	for (int i = 0; i < frames->count; ++i) {
-		char group[64];
-		snprintf(group, sizeof group, "/frames/%08d", i);
-		JN_TRY(recording_file_attribute(frames->file, group, "time", H5T_NATIVE_DOUBLE, &frames->times[i]));
-	}
-	return JN_OK;
+	return recording_file_times(frames->file, 0, frames->count, frames->times);
 }
 
 static JnStatus read_surface(Frames* frames) {
-	const hid_t file = frames->file;
-	const bool is_carried = H5Lexists(file, "/frames/00000000/surface", H5P_DEFAULT) > 0;
-	const hssize_t numbers = recording_file_measure(file, "/topology/surface");
-	const hssize_t points =
-		is_carried ? recording_file_measure(file, "/frames/00000000/surface") : 3 * (hssize_t)frames->node_count;
+	RecordingFile* file = frames->file;
+	const bool is_carried = recording_file_has(file, "/frames/00000000/surface");
+	const int64_t numbers = recording_file_measure(file, "/topology/surface");
+	const int64_t points =
+		is_carried ? recording_file_measure(file, "/frames/00000000/surface") : 3 * (int64_t)frames->node_count;
 	if (numbers < 0 || points < 0) return JN_IO_FAILED;
 	frames->are_nodes = !is_carried;
 	frames->point_count = (int)(points / 3);
 	frames->triangle_count = (int)(numbers / 3);
 	JN_NEW(&frames->arena, frames->triangles, numbers + 1);
 	JN_NEW(&frames->arena, frames->bodies, frames->triangle_count + 1);
-	JN_TRY(recording_file_array(file, "/topology/surface", H5T_NATIVE_INT, numbers, frames->triangles));
-	JN_TRY(recording_file_array(file, "/topology/surface_body", H5T_NATIVE_INT, numbers / 3, frames->bodies));
-	for (hssize_t i = 0; i < numbers; ++i)
+	JN_TRY(recording_file_array(file, "/topology/surface", RECORDING_INTEGER, numbers, frames->triangles));
+	JN_TRY(recording_file_array(file, "/topology/surface_body", RECORDING_INTEGER, numbers / 3, frames->bodies));
+	for (int64_t i = 0; i < numbers; ++i)
 		if (frames->triangles[i] < 0 || frames->triangles[i] >= frames->point_count) return JN_IO_FAILED;
 	return JN_OK;
 }
 
 static JnStatus read_obstacles(Frames* frames) {
-	const hid_t file = frames->file;
+	RecordingFile* file = frames->file;
 	JnSurface* surface = &frames->obstacles;
-	if (H5Lexists(file, "/topology/obstacle_points", H5P_DEFAULT) <= 0) return JN_OK;
-	const hssize_t points = recording_file_measure(file, "/topology/obstacle_points");
-	const hssize_t corners = recording_file_measure(file, "/topology/obstacle_triangles");
+	if (!recording_file_has(file, "/topology/obstacle_points")) return JN_OK;
+	const int64_t points = recording_file_measure(file, "/topology/obstacle_points");
+	const int64_t corners = recording_file_measure(file, "/topology/obstacle_triangles");
 	if (points < 0 || corners < 0) return JN_IO_FAILED;
 	surface->node_count = (int)(points / 3);
 	surface->triangle_count = (int)(corners / 3);
 	JN_NEW(&frames->arena, surface->nodes, points + 1);
 	JN_NEW(&frames->arena, surface->triangles, corners + 1);
-	JN_TRY(recording_file_array(file, "/topology/obstacle_points", H5T_NATIVE_DOUBLE, points, surface->nodes));
-	JN_TRY(recording_file_array(file, "/topology/obstacle_triangles", H5T_NATIVE_INT, corners, surface->triangles));
-	for (hssize_t i = 0; i < corners; ++i)
+	JN_TRY(recording_file_array(file, "/topology/obstacle_points", RECORDING_REAL, points, surface->nodes));
+	JN_TRY(recording_file_array(file, "/topology/obstacle_triangles", RECORDING_INTEGER, corners, surface->triangles));
+	for (int64_t i = 0; i < corners; ++i)
 		if (surface->triangles[i] < 0 || surface->triangles[i] >= surface->node_count) return JN_IO_FAILED;
 	return JN_OK;
 }
 
-static JnStatus read_file(hid_t file, void* user) {
+static JnStatus read_file(RecordingFile* file, void* user) {
 	Frames* frames = user;
-	const hssize_t numbers = recording_file_measure(file, "/mesh/nodes");
+	const int64_t numbers = recording_file_measure(file, "/mesh/nodes");
 	if (numbers < 3) return JN_IO_FAILED;
 	frames->node_count = (int)(numbers / 3);
 	JN_NEW(&frames->arena, frames->rest, numbers);
-	JN_TRY(recording_file_array(file, "/mesh/nodes", H5T_NATIVE_DOUBLE, numbers, frames->rest));
+	JN_TRY(recording_file_array(file, "/mesh/nodes", RECORDING_REAL, numbers, frames->rest));
 	JN_TRY(read_times(frames));
 	JN_TRY(read_surface(frames));
 	return read_obstacles(frames);
 }
 
 JnStatus frames_open(const char* folder, Frames* frames) {
-	*frames = (Frames){.file = -1};
+	*frames = (Frames){0};
 	return recording_file_open(folder, read_file, frames, &frames->file);
 }
 
@@ -84,20 +78,20 @@ int frames_nearest(const Frames* frames, double t) {
 	return nearest;
 }
 
-static JnStatus read_numbers(const Frames* frames, int frame, const char* what, hssize_t count, double* numbers) {
+static JnStatus read_numbers(const Frames* frames, int frame, const char* what, int64_t count, double* numbers) {
 	char name[160];
 	snprintf(name, sizeof name, "/frames/%08d/%s", frame, what);
-	const JnStatus status = recording_file_array(frames->file, name, H5T_NATIVE_DOUBLE, count, numbers);
+	const JnStatus status = recording_file_array(frames->file, name, RECORDING_REAL, count, numbers);
 	return status == JN_OK ? status : jn_error(status, "%s in frame %d of a recording cannot be read", what, frame);
 }
 
 JnStatus frames_read(const Frames* frames, int frame, double* points) {
 	const char* what = frames->are_nodes ? "position" : "surface";
-	return read_numbers(frames, frame, what, 3 * (hssize_t)frames->point_count, points);
+	return read_numbers(frames, frame, what, 3 * (int64_t)frames->point_count, points);
 }
 
 JnStatus frames_read_nodes(const Frames* frames, int frame, double* positions) {
-	return read_numbers(frames, frame, "position", 3 * (hssize_t)frames->node_count, positions);
+	return read_numbers(frames, frame, "position", 3 * (int64_t)frames->node_count, positions);
 }
 
 JnStatus frames_read_field(const Frames* frames, int frame, const char* field, double* values) {

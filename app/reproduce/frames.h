@@ -5,14 +5,13 @@
 #ifndef JN_APP_REPRODUCE_FRAMES_H
 #define JN_APP_REPRODUCE_FRAMES_H
 
-#include <hdf5.h>
-
 #include "base/arena.h"
 #include "mesh/surface.h"
+#include "recording_file.h"
 
 typedef struct Frames {
 	JnArena arena;
-	hid_t file;
+	RecordingFile* file;
 	int count;
 	double* times; ///< count [s]
 	int node_count;

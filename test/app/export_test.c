@@ -187,7 +187,7 @@ static void a_full_disk_leaves_no_traces(void** state) {
 	for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i) {
 		char command[1024];
 		snprintf(command, sizeof command,
-				 "cd '%s' && trap '' XFSZ && ulimit -f 1 && '%s' export solids --as %s -o overflow 2>overflow.txt",
+				 "cd '%s' && trap '' XFSZ && ulimit -S -f 1 && '%s' export solids --as %s -o overflow 2>overflow.txt",
 				 folder, JN_COMMAND, formats[i]);
 		const int status = system(command);
 		assert_int_equal(WEXITSTATUS(status), 3);

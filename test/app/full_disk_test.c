@@ -41,8 +41,8 @@ static void expect_part(const char* text, const char* part) {
 /// pipes have no limit.
 static char* run_limited(int blocks, int expected, const char* words) {
 	char line[1024], text[4096];
-	snprintf(line, sizeof line, "cd '%s' && trap '' XFSZ && ulimit -f %d && '%s' %s 2>&1", folder, blocks, JN_COMMAND,
-			 words);
+	snprintf(line, sizeof line, "cd '%s' && trap '' XFSZ && ulimit -S -f %d && '%s' %s 2>&1", folder, blocks,
+			 JN_COMMAND, words);
 	FILE* pipe = popen(line, "r");
 	assert_non_null(pipe);
 	const size_t length = fread(text, 1, sizeof text - 1, pipe);

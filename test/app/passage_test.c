@@ -8,6 +8,7 @@
 #include <cmocka.h>
 
 #include "recording_file.c" // the command's own parts are in no library
+#include "recording_reader.c"
 #include "reproduce/frames.c"
 #include "reproduce/passage.c"
 #include "support/support.h"

@@ -1,10 +1,15 @@
-// Recordings that declare more than they hold are refused with a reason, before memory is taken for what they declare.
+// Recordings that declare more than they hold are refused with a reason, before memory is taken for what they declare, and so
+// are those on which HDF5 crashes.
+#define _GNU_SOURCE // memmem
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
+#include <hdf5.h>
 #include <cmocka.h>
 
 #include "compare_recording.h"
@@ -27,13 +32,16 @@ static int tear_down(void** state) {
 	return 0;
 }
 
-/// A copy of the recording of cells and a thread, open for changes.
-static hid_t open_copy(void) {
-	const Sample* sample = sample_recordings();
+static void write_copy(const unsigned char* image, size_t size) {
 	FILE* file = fopen(path_join(folder, "run.h5"), "wb");
 	assert_non_null(file);
-	assert_int_equal(fwrite(sample->image, 1, sample->size, file), sample->size);
+	assert_int_equal(fwrite(image, 1, size, file), size);
 	assert_int_equal(fclose(file), 0);
+}
+
+/// A copy of the recording of cells and a thread, open for changes.
+static hid_t open_copy(void) {
+	write_copy(sample_recordings()->image, sample_recordings()->size);
 	const hid_t copy = H5Fopen(path_join(folder, "run.h5"), H5F_ACC_RDWR, H5P_DEFAULT);
 	assert_true(copy >= 0);
 	return copy;
@@ -126,11 +134,37 @@ static void points_beyond_those_of_the_bodies_are_refused(void** unused) {
 	expect_refusal("damaged", false);
 }
 
+/// Texts lie in heaps, which have no check sum: HDF5 1.10.8 follows the length of the first one out of its memory. Later
+/// versions may see it; what they say of a text that is missing ends in the same status.
+static void texts_on_which_hdf5_crashes_are_refused(void** unused) {
+	(void)unused;
+	enum { LENGTH_AT = 24 };
+	const Sample* sample = sample_recordings();
+	unsigned char* image = malloc(sample->size);
+	assert_non_null(image);
+	memcpy(image, sample->image, sample->size);
+	unsigned char* heap = memmem(image, sample->size, "GCOL", 4);
+	assert_non_null(heap);
+	memset(heap + LENGTH_AT, 255, 8);
+	write_copy(image, sample->size);
+	free(image);
+	expect_refusal("run.h5", false); // a comparison reads no texts
+}
+
+/// Opening it would wait for somebody to write into it.
+static void a_pipe_in_place_of_a_recording_is_refused(void** unused) {
+	(void)unused;
+	assert_int_equal(mkfifo(path_join(folder, "run.h5"), 0600), 0);
+	expect_refusal("this is no HDF5 file", true);
+}
+
 int main(void) {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(nodes_that_are_not_in_the_file_are_refused, set_up, tear_down),
 		cmocka_unit_test_setup_teardown(frames_that_are_not_in_the_file_are_refused, set_up, tear_down),
 		cmocka_unit_test_setup_teardown(an_attribute_with_many_values_is_refused, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(texts_on_which_hdf5_crashes_are_refused, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(a_pipe_in_place_of_a_recording_is_refused, set_up, tear_down),
 		cmocka_unit_test_setup_teardown(points_beyond_those_of_the_bodies_are_refused, set_up, tear_down),
 	};
 	return cmocka_run_group_tests_name("recording", tests, NULL, NULL);

@@ -220,11 +220,24 @@ static void what_cannot_be_scored_is_refused(void** state) {
 	outcome_free(&outcome);
 }
 
+// Whether the process has come as far as to catch SIGINT, which ends it before.
+static bool catches_interrupts(int id) {
+	char path[64], line[256];
+	unsigned long long caught = 0;
+	snprintf(path, sizeof path, "/proc/%d/status", id);
+	FILE* status = fopen(path, "r");
+	while (status != NULL && fgets(line, sizeof line, status) != NULL)
+		if (strncmp(line, "SigCgt:", 7) == 0) caught = strtoull(line + 7, NULL, 16);
+	if (status != NULL) fclose(status);
+	return (caught >> (SIGINT - 1) & 1) != 0;
+}
+
 static void interrupt_writes_what_is_known(void** state) {
 	(void)state;
 	const char* const words[] = {"score", "oscillator.yaml", "-o", "s", "--time", "1e6s", "--cap", "0.5s", NULL};
 	Process process = command_start(folder, words);
-	usleep(300000);
+	for (int i = 0; i < 1000 && !catches_interrupts((int)process.id); ++i) usleep(10000);
+	usleep(100000);
 	assert_int_equal(kill(process.id, SIGINT), 0);
 	Outcome outcome = command_wait(process);
 	assert_int_equal(outcome.status, 0);

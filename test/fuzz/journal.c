@@ -1,5 +1,5 @@
 // The journal beside a recording that a killed run has left: its pages go into the recording when its check sum is right, so
-// the input is the journal's numbers and pages, and the sum is made for it, unless the first byte is 0.
+// the input is the journal's numbers and pages, and the sum is made for it, unless the first byte is 0. HDF5 has no part in it.
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

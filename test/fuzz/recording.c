@@ -1,11 +1,15 @@
 // Recordings in which objects are not what they should be: each input is a list of edits of the run.h5 of a small run. HDF5
-// itself is not under test, so the file stays one that it can read; what its objects are called, how large they say they are,
-// of which type, and what they hold, is up to the input. All readers of the command read the result.
+// itself is not under test: the file stays one that it can read, and what its objects are called, how large they say they are,
+// of which type, and what they hold, is up to the input. All readers of the command read the result. As always, HDF5 reads in a
+// child process, whose crash or limits are one more refusal here; what the readers make of its answers is done in this process,
+// where sanitizers see it. The edits are made in this process too, without limits. Bytes: tools/damage_recordings.
 //
 //   sample, then edits: kind, object, and what the kind asks for
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <hdf5.h>
 
 #include "compare_recording.h"
 #include "recording.h"
