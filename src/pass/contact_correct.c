@@ -100,12 +100,12 @@ static double extent(const JnContactPass* pass, int body, const double* x) {
 
 // Whether the prediction tears a body: what went wrong is the integrator's, for the words of other causes to tell.
 static bool tears_a_body(const JnContactPass* pass, const JnStep* step) {
-	bool is_torn = false;
-	for (int b = 0; b < pass->model->body_count && !is_torn; ++b) {
-		const double before = fmax(extent(pass, b, step->start->x), extent(pass, b, pass->model->rest));
-		is_torn = extent(pass, b, step->end->x) > torn * before;
+	for (int b = 0; b < pass->model->body_count; ++b) {
+		const double end = extent(pass, b, step->end->x);
+		if (end > torn * extent(pass, b, step->start->x) && end > torn * extent(pass, b, pass->model->rest))
+			return true;
 	}
-	return is_torn;
+	return false;
 }
 
 JnStatus jn_contact_correct(JnContactPass* pass, const JnStep* step) {
